@@ -1,0 +1,12 @@
+# Libraries, all from the distribution's packages (see scripts/install-packages.sh).
+find_package(Threads REQUIRED)
+find_package(assimp REQUIRED)
+find_package(tinyobjloader REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(fmt REQUIRED)
+find_package(TBB REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
+
+find_path(ENCORE_GLM_DIR glm/glm.hpp REQUIRED)
+find_path(ENCORE_CLI11_DIR CLI/CLI.hpp REQUIRED)

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds a release and profiles a scene: the default one, or what is named.
+#   ./run.sh                     profile the default scene
+#   ./run.sh profile bunny.ply   any command of the program, with its options
+set -euo pipefail
+root=$(cd "$(dirname "$0")" && pwd)
+
+"$root/scripts/install-packages.sh"
+"$root/scripts/build.sh" release encore
+
+if [ $# -eq 0 ]; then
+  set -- profile
+fi
+exec "$root/build/release/app/encore" "$@"
