@@ -27,7 +27,9 @@ struct Triangle {
 };
 
 // One node of a binary bounding volume hierarchy. The children of an inner node lie side by side
-// at `first` and `first + 1`; a leaf holds `count` (> 0) triangle references starting at `first`.
+// at `first` and `first + 1`, after their parent. A leaf (count > 0) of a single triangle holds its
+// index in `first`, so trees of such leaves need no references; a leaf of several holds references
+// `first` to `first + count - 1`.
 struct BvhNode {
   vec3 min;
   uint first;
