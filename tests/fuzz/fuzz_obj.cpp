@@ -1,0 +1,11 @@
+// Feeds arbitrary bytes to the OBJ reader: it returns a sound model or throws InputError.
+#include "scene/obj_reader.h"
+#include "tests/fuzz/check_model.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace encore;
+  fuzz::check_reader([&] {
+    return scene::read_obj({reinterpret_cast<const char*>(data), size}, "fuzz.obj", {});
+  });
+  return 0;
+}
