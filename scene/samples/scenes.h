@@ -1,0 +1,26 @@
+#pragma once
+
+#include "scene/scene.h"
+
+/// The sample scenes that need more than one model, or move.
+namespace encore::scene::samples {
+
+/// An open box of toys, several of them moving rigidly in one loop of eight seconds; 11,141.
+Scene toys();
+
+/// Five models far apart, seen from afar; 98,867 triangles.
+Scene still_life();
+
+/// A strongly uneven scene: a dense statue in a huge, coarse hall; 436,942 triangles.
+Scene hall();
+
+/// A clearing with trees, mushrooms, a dragon and a rabbit; 679,531 triangles.
+Scene forest();
+
+/// A checkered cloth deformed by a travelling wave; 20,000 triangles.
+Scene wave();
+
+/// Drops that merge and part; the number of triangles changes from frame to frame.
+Scene metaballs();
+
+}  // namespace encore::scene::samples
