@@ -1,0 +1,108 @@
+#pragma once
+
+#include "accel/counters.h"
+#include "accel/gpu_buffers.h"
+#include "accel/stats.h"
+#include "scene/bounds.h"
+#include "scene/ray.h"
+#include "scene/triangle.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+
+namespace encore::accel {
+
+using scene::Bounds;
+using scene::Hit;
+using scene::kNoHit;
+using scene::Ray;
+using scene::Triangle;
+
+/// One node, cell or leaf as a visitor sees it.
+struct NodeView {
+  Bounds bounds;  ///< the space it stands for
+  std::uint32_t depth = 0;
+  bool leaf = false;
+  int split_axis = -1;                       ///< kd-tree inner nodes only
+  float split_position = 0;                  ///< kd-tree inner nodes only
+  std::span<const std::uint32_t> triangles;  ///< leaves only
+};
+
+/// The interface of every acceleration structure (thesis, appendix B).
+///
+/// The triangles stay the caller's: they must outlive the structure's use and may change only
+/// before the next build() or update(). All triangles must be finite. Rays are traced in batches,
+/// one virtual call each; all const members may be called from several threads at once.
+///
+/// The hit contract, the same for every structure: of all triangles that decide_hit()
+/// (triangle_hit.h) accepts, the one with the smallest t, at equal t the lowest index. No structure
+/// may lose or add a hit; traversal is conservative by rounding bounds, never by fixed epsilons.
+class AccelerationStructure {
+ public:
+  virtual ~AccelerationStructure() = default;
+
+  [[nodiscard]] virtual std::string_view name() const = 0;
+
+  /// Builds the structure over the triangles from scratch. Zero triangles are valid.
+  virtual void build(std::span<const Triangle> triangles) = 0;
+
+  /// Adapts the structure to triangles that moved; their number and order must be those of the last
+  /// build. Structures that cannot are rebuilt.
+  virtual void update(std::span<const Triangle> triangles) { build(triangles); }
+  [[nodiscard]] virtual bool can_refit() const { return false; }
+
+  /// Finds the nearest hit of each ray; hits.size() == rays.size().
+  virtual void intersect(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
+  /// The same, and what each ray cost; counters.size() == rays.size(), overwritten.
+  virtual void intersect_counted(std::span<const Ray> rays, std::span<Hit> hits,
+                                 std::span<TraceCounters> counters) const = 0;
+  /// Whether each ray hits anything at all (any-hit): 1 or 0.
+  virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const = 0;
+
+  /// Figures of the last build and of the structure. Computed when asked, not while building, apart
+  /// from what is counted anyway.
+  [[nodiscard]] virtual BuildStats stats() const = 0;
+  [[nodiscard]] virtual GpuBuffers gpu_buffers() const = 0;
+  /// Calls `visitor` for every node in depth-first order (grids: every non-empty cell); a visitor
+  /// that returns false skips the node's children.
+  virtual void visit(const std::function<bool(const NodeView&)>& visitor) const = 0;
+};
+
+/// Implements the three batch calls over `Derived::trace<AnyHit>(ray, hit, counter_policy)`, so
+/// that the inner loop is compiled once for each use and no ray pays a virtual call. `trace` starts
+/// from a hit that is a miss with t = ray.t_max and may return early with any hit if AnyHit.
+template <class Derived>
+class TracedStructure : public AccelerationStructure {
+ public:
+  void intersect(std::span<const Ray> rays, std::span<Hit> hits) const final {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      hits[i] = Hit{.t = rays[i].t_max};
+      NotCounting none;
+      self().template trace<false>(rays[i], hits[i], none);
+    }
+  }
+  void intersect_counted(std::span<const Ray> rays, std::span<Hit> hits,
+                         std::span<TraceCounters> counters) const final {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      hits[i] = Hit{.t = rays[i].t_max};
+      counters[i] = {};
+      Counting counting{counters[i]};
+      self().template trace<false>(rays[i], hits[i], counting);
+    }
+  }
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const final {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      Hit hit{.t = rays[i].t_max};
+      NotCounting none;
+      self().template trace<true>(rays[i], hit, none);
+      blocked[i] = hit.found() ? 1 : 0;
+    }
+  }
+
+ private:
+  [[nodiscard]] const Derived& self() const { return static_cast<const Derived&>(*this); }
+};
+
+}  // namespace encore::accel

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "accel/acceleration_structure.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace encore::accel {
+
+/// How a structure's hits compare with the truth, ray by ray.
+struct HitComparison {
+  std::uint64_t rays = 0;
+  std::uint64_t hits = 0;             ///< of the reference
+  std::uint64_t missed = 0;           ///< the reference hits, the structure does not
+  std::uint64_t invented = 0;         ///< the structure hits, the reference does not
+  std::uint64_t wrong_triangle = 0;   ///< both hit, different triangles
+  std::uint64_t wrong_distance = 0;   ///< the same triangle at another t, u or v
+  std::uint64_t wrong_occlusion = 0;  ///< any-hit disagrees with the nearest hit
+  /// The first ray that differs, and both answers; meaningful if mismatches() > 0.
+  Ray first_ray;
+  Hit first_expected;
+  Hit first_found;
+
+  [[nodiscard]] std::uint64_t mismatches() const {
+    return missed + invented + wrong_triangle + wrong_distance + wrong_occlusion;
+  }
+  HitComparison& operator+=(const HitComparison& other);
+};
+
+/// Holds `structure` to `reference`: nearest hits bit for bit, and any-hit against them.
+HitComparison compare_hits(const AccelerationStructure& structure,
+                           const AccelerationStructure& reference, std::span<const Ray> rays);
+
+/// Holds `structure` to the exact oracle over `triangles`. Distances and barycentrics may differ by
+/// one rounding; a different triangle is counted as wrong unless both are hit at the same rounded
+/// distance or the ray passes an edge within double rounding (`edge_cases` counts those).
+struct OracleComparison {
+  HitComparison hits;
+  std::uint64_t edge_cases = 0;
+};
+OracleComparison compare_with_oracle(const AccelerationStructure& structure,
+                                     std::span<const Triangle> triangles,
+                                     std::span<const Ray> rays);
+
+}  // namespace encore::accel

@@ -1,0 +1,57 @@
+// Names and settings: every documented key takes, every wrong one says so.
+#include "accel/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace encore::accel {
+namespace {
+
+TEST(Settings, NamesRoundTrip) {
+  for (const StructureKind kind : all_structure_kinds()) {
+    EXPECT_EQ(parse_structure_kind(to_string(kind)), kind);
+  }
+  for (const Policy policy : {Policy::rebuild, Policy::refit, Policy::fixed}) {
+    EXPECT_EQ(parse_policy(to_string(policy)), policy);
+  }
+  EXPECT_FALSE(parse_structure_kind("grid").has_value());
+  EXPECT_FALSE(parse_policy("").has_value());
+}
+
+TEST(Settings, DefaultsAreTheThesis) {
+  const auto kd = std::get<KdTreeSettings>(default_spec(StructureKind::kd_sah).settings);
+  EXPECT_EQ(kd.depth_offset, 11.0F);
+  EXPECT_EQ(kd.depth_factor, 1.3F);
+  EXPECT_EQ(kd.depth_logarithm, KdTreeSettings::DepthLogarithm::natural);
+  EXPECT_EQ(kd.bad_split_retries, 5);
+  EXPECT_EQ(kd.bad_split_margin, 3);
+}
+
+TEST(Settings, EveryListedKeyIsKnownAndRejectsNonsense) {
+  for (const StructureKind kind : all_structure_kinds()) {
+    for (const std::string_view key : setting_keys()) {
+      StructureSpec spec = default_spec(kind);
+      const std::string problem = apply_setting(spec, key, "nonsense");
+      EXPECT_NE(problem.find("nonsense"), std::string::npos) << key << ": " << problem;
+      EXPECT_EQ(problem.find("unknown"), std::string::npos) << key;
+    }
+  }
+}
+
+TEST(Settings, ValuesArriveAndAreBounded) {
+  StructureSpec spec = default_spec(StructureKind::grid_box);
+  EXPECT_EQ(apply_setting(spec, "grid.cells_per_axis", "64"), "");
+  EXPECT_EQ(std::get<GridSettings>(spec.settings).cells_per_axis, 64);
+  EXPECT_NE(apply_setting(spec, "grid.cells_per_axis", "-1"), "");
+  EXPECT_NE(apply_setting(spec, "grid.density", "nan"), "");
+  EXPECT_NE(apply_setting(spec, "grid.cells_per_axis", "64 "), "");
+  EXPECT_EQ(std::get<GridSettings>(spec.settings).cells_per_axis, 64);
+  // Another kind's setting is checked but changes nothing here.
+  EXPECT_EQ(apply_setting(spec, "kd.leaf_triangles", "4"), "");
+  EXPECT_NE(apply_setting(spec, "kd.leaf_triangles", "four"), "");
+  EXPECT_NE(apply_setting(spec, "grid.cell_count", "4").find("unknown"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace encore::accel
