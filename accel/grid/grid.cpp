@@ -1,0 +1,175 @@
+#include "accel/grid/grid.h"
+
+#include "shaders/shared/bindings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace encore::accel {
+
+namespace {
+
+constexpr std::uint64_t kMostReferences = 0xFFFFFFFEU;
+
+// The limits that the class comment promises.
+std::uint64_t cell_limit(std::uint64_t triangles) {
+  return (1U << 24) + 64 * triangles;
+}
+std::uint64_t reference_limit(std::uint64_t triangles) {
+  return std::min<std::uint64_t>((1U << 22) + 32 * triangles, kMostReferences);
+}
+
+std::uint32_t desired_cells(const GridSettings& settings, std::uint64_t triangles) {
+  const double automatic =
+      std::round(static_cast<double>(settings.density) * std::cbrt(static_cast<double>(triangles)));
+  const double wanted = settings.cells_per_axis > 0 ? settings.cells_per_axis : automatic;
+  // The comparison also turns a density that is not a number into one cell.
+  if (!(wanted > 1.0)) return 1;
+  auto cells = static_cast<std::uint32_t>(
+      std::min(wanted, static_cast<double>(CellRange::kMaxCellsPerAxis)));
+  while (std::uint64_t{cells} * cells * cells > cell_limit(triangles)) --cells;
+  return cells;
+}
+
+}  // namespace
+
+void Grid::build(std::span<const Triangle> triangles) {
+  if (triangles.size() > kMostReferences) {
+    throw std::length_error("a grid holds at most 2^32 - 2 triangles");
+  }
+  triangles_ = triangles;
+  allocations_ = {};
+  triangle_box_tests_ = 0;
+
+  Bounds bounds;
+  for (const Triangle& t : triangles) bounds.extend(scene::bounds_of(t));
+  choose_cells(bounds);
+
+  // First pass: which cells each triangle goes into, and how many references each cell gets.
+  cell_starts_.reset(std::size_t{layout_.cell_count()} + 1, mode_, allocations_);
+  const std::size_t count =
+      kind_ == StructureKind::grid_exact ? list_exact_entries() : list_box_entries();
+  // Memory for exactly these, then the second pass.
+  references_.reset(count, mode_, allocations_);
+  insert_entries(count);
+
+  if (mode_ == MemoryMode::fresh) {
+    ranges_.release();
+    entries_.release();
+    scaled_planes_.release();
+  }
+}
+
+// Sets up the layout and every triangle's range, with as many cells as the limits allow.
+void Grid::choose_cells(const Bounds& bounds) {
+  const std::uint64_t limit = reference_limit(triangles_.size());
+  ranges_.reset(triangles_.size(), mode_, allocations_);
+  std::uint32_t cells = desired_cells(settings_, triangles_.size());
+  std::uint64_t entries = 0;
+  while (true) {
+    layout_.divide(bounds, cells, mode_, allocations_);
+    entries = find_ranges();
+    if (entries <= limit || cells == 1) break;
+    // Volumes shrink about with the cube of the resolution, but never by less than a tenth, so few
+    // rounds are needed. With one cell each triangle has one reference, which is within the limit.
+    const double ratio = std::cbrt(static_cast<double>(limit) / static_cast<double>(entries));
+    cells = std::max(1U, static_cast<std::uint32_t>(cells * std::min(ratio, 0.9)));
+  }
+  entries_.reset(entries + kEntryPadding, mode_, allocations_);
+}
+
+// Returns how many cells all ranges hold together.
+std::uint64_t Grid::find_ranges() {
+  std::uint64_t entries = 0;
+  CellRange* out = ranges_.data();
+  for (const Triangle& t : triangles_) {
+    const CellRange range = layout_.range_of(scene::bounds_of(t));
+    entries += range.cells();
+    *out++ = range;
+  }
+  return entries;
+}
+
+void Grid::insert_entries(std::size_t count) {
+  // Count into the slot after each cell's own.
+  std::uint32_t* const starts = cell_starts_.data();
+  std::fill_n(starts, cell_starts_.size(), 0U);
+  const std::uint32_t* const entries = entries_.data();
+  for (std::size_t i = 0; i < count; ++i) ++starts[(entries[i] & ~kFirstOfTriangle) + 1];
+
+  // Turn counts into starts; each cell's start now stands in the slot after its own.
+  std::uint32_t running = 0;
+  for (std::size_t c = 1; c < cell_starts_.size(); ++c) {
+    const std::uint32_t n = starts[c];
+    starts[c] = running;
+    running += n;
+  }
+
+  // Insert. That slot moves on with every reference and ends where the next cell starts, which is
+  // what it has to hold. Triangles come in ascending order, so each cell's are sorted.
+  std::uint32_t* const references = references_.data();
+  std::uint32_t triangle = 0xFFFFFFFFU;
+  for (std::size_t i = 0; i < count; ++i) {
+    triangle += entries[i] >> 31;
+    references[starts[(entries[i] & ~kFirstOfTriangle) + 1]++] = triangle;
+  }
+}
+
+std::span<const std::uint32_t> Grid::cell(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+  const std::uint32_t c = x + layout_.stride(1) * y + layout_.stride(2) * z;
+  return references_.span().subspan(cell_starts_[c], cell_starts_[c + 1] - cell_starts_[c]);
+}
+
+BuildStats Grid::stats() const {
+  BuildStats stats;
+  stats.triangles = triangles_.size();
+  stats.allocations = allocations_.requests;
+  stats.allocated_bytes = allocations_.bytes;
+  stats.triangle_box_tests = triangle_box_tests_;
+  if (cell_starts_.empty()) return stats;
+
+  stats.nodes = layout_.cell_count();
+  stats.grid_size = layout_.sizes();
+  stats.references = references_.size();
+  stats.bytes = cell_starts_.bytes().size() + references_.bytes().size() +
+                layout_.all_planes().bytes().size();
+  // A ray enters a cell with the probability area(cell) / area(grid); it then pays one step and
+  // one test for each reference. Without area every ray meets everything.
+  double cost = 0.0;
+  for (std::uint32_t z = 0; z < layout_.size(2); ++z) {
+    for (std::uint32_t y = 0; y < layout_.size(1); ++y) {
+      for (std::uint32_t x = 0; x < layout_.size(0); ++x) {
+        const std::uint64_t n = cell(x, y, z).size();
+        if (n > 0) ++stats.leaves;
+        stats.largest_leaf = std::max(stats.largest_leaf, n);
+        cost += layout_.cell_bounds(x, y, z).area() * static_cast<double>(1 + n);
+      }
+    }
+  }
+  const double area = layout_.bounds().area();
+  stats.sah_cost = area > 0.0 ? cost / area : static_cast<double>(stats.references);
+  return stats;
+}
+
+GpuBuffers Grid::gpu_buffers() const {
+  return {{ENCORE_BINDING_REFERENCES, references_.bytes()},
+          {ENCORE_BINDING_CELL_STARTS, cell_starts_.bytes()},
+          {ENCORE_BINDING_CELL_PLANES, layout_.all_planes().bytes()}};
+}
+
+void Grid::visit(const std::function<bool(const NodeView&)>& visitor) const {
+  if (references_.empty()) return;
+  for (std::uint32_t z = 0; z < layout_.size(2); ++z) {
+    for (std::uint32_t y = 0; y < layout_.size(1); ++y) {
+      for (std::uint32_t x = 0; x < layout_.size(0); ++x) {
+        const auto triangles = cell(x, y, z);
+        if (triangles.empty()) continue;
+        visitor(
+            NodeView{.bounds = layout_.cell_bounds(x, y, z), .leaf = true, .triangles = triangles});
+      }
+    }
+  }
+}
+
+}  // namespace encore::accel

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "accel/acceleration_structure.h"
+#include "accel/array.h"
+#include "accel/grid/grid_layout.h"
+#include "accel/settings.h"
+
+#include <cstdint>
+
+namespace encore::accel {
+
+/// The thesis' uniform grid (3.1): M = round(cbrt(#T)) cells along every axis, so cells are as
+/// oblong as the scene. Built by counting references, allocating once and inserting; `grid-exact`
+/// keeps a triangle only in the cells that it overlaps (Akenine-Möller 2001), `grid-box` in all
+/// cells that its bounds touch. Traversed by a three-dimensional DDA (Amanatides and Woo 1987).
+///
+/// Where we differ from the thesis: an axis without extent gets one cell, since more would all be
+/// the same plane. M is at most 1024, and at most the cube root of 2^24 + 64 #T, also when set by
+/// hand. Large triangles can put #T references each into any grid; so if all bounds together touch
+/// more than 2^22 + 32 #T cells, M is lowered until they no longer do (the same M for both kinds).
+class Grid final : public TracedStructure<Grid> {
+ public:
+  /// `kind` is grid_exact or grid_box.
+  Grid(StructureKind kind, GridSettings settings, MemoryMode mode)
+      : kind_(kind), settings_(settings), mode_(mode) {}
+
+  [[nodiscard]] std::string_view name() const override { return to_string(kind_); }
+  /// Throws std::length_error for more than 2^32 - 2 triangles.
+  void build(std::span<const Triangle> triangles) override;
+  [[nodiscard]] BuildStats stats() const override;
+  [[nodiscard]] GpuBuffers gpu_buffers() const override;
+  void visit(const std::function<bool(const NodeView&)>& visitor) const override;
+
+  /// Cells and planes of the last build.
+  [[nodiscard]] const GridLayout& layout() const { return layout_; }
+  /// The triangles of one cell, in ascending order.
+  [[nodiscard]] std::span<const std::uint32_t> cell(std::uint32_t x, std::uint32_t y,
+                                                    std::uint32_t z) const;
+
+  template <bool AnyHit, class Counter>
+  void trace(const Ray& ray, Hit& hit, Counter& counter) const;
+
+ private:
+  /// Marks the first entry of a triangle in entries_; cell indices need only 30 bits.
+  static constexpr std::uint32_t kFirstOfTriangle = 0x80000000U;
+  /// Emitting may write this many entries past the last valid one.
+  static constexpr std::size_t kEntryPadding = 8;
+
+  // Building, in this order; both list_… return the number of entries.
+  void choose_cells(const Bounds& bounds);
+  std::uint64_t find_ranges();
+  std::size_t list_box_entries();    // grid_build_box.cpp
+  std::size_t list_exact_entries();  // grid_build_exact.cpp
+  void insert_entries(std::size_t count);
+
+  const StructureKind kind_;
+  const GridSettings settings_;
+  const MemoryMode mode_;
+  std::span<const Triangle> triangles_;
+
+  // What tracing needs: the references of cell c are references_[starts_[c] .. starts_[c + 1]).
+  GridLayout layout_;
+  Array<std::uint32_t> cell_starts_;
+  Array<std::uint32_t> references_;
+
+  // What only building needs: the cells of each triangle's bounds; then, triangle by triangle, the
+  // cells that it is to go into; and the planes for the exact test.
+  Array<CellRange> ranges_;
+  Array<std::uint32_t> entries_;
+  Array<float> scaled_planes_;
+
+  AllocationCount allocations_;
+  std::uint64_t triangle_box_tests_ = 0;
+};
+
+/// Writes all cells of a range to `out`, the first one marked, and returns how many there are. May
+/// write up to 8 values past them.
+std::size_t list_range(const GridLayout& layout, CellRange range, std::uint32_t first_mark,
+                       std::uint32_t* out);
+
+}  // namespace encore::accel
