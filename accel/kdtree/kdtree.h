@@ -1,0 +1,46 @@
+#pragma once
+
+#include "accel/acceleration_structure.h"
+#include "accel/kdtree/kdtree_build_sah.h"
+#include "accel/kdtree/kdtree_builder.h"
+#include "accel/settings.h"
+
+namespace encore::accel {
+
+/// The kd-trees of thesis 3.2: `kd-median` (KD-M) halves boxes, the axes taking turns; `kd-sah`
+/// (KD-S) splits where the surface area heuristic wants it. They differ in the splitter only.
+///
+/// Memory is bounded on any input: depth by kKdDepthCap, references by KdLimits::references, nodes
+/// by 2^30.
+class KdTree final : public TracedStructure<KdTree> {
+ public:
+  /// `kind`: kd_median or kd_sah.
+  KdTree(StructureKind kind, const KdTreeSettings& settings, MemoryMode mode)
+      : kind_(kind), settings_(settings), mode_(mode) {}
+
+  [[nodiscard]] std::string_view name() const override;
+  /// Throws std::length_error for 2^30 triangles or more, which a leaf could not count.
+  void build(std::span<const Triangle> triangles) override;
+  [[nodiscard]] BuildStats stats() const override;
+  [[nodiscard]] GpuBuffers gpu_buffers() const override;
+  void visit(const std::function<bool(const NodeView&)>& visitor) const override;
+
+  /// Front to back with a stack (Pharr and Humphreys 2004, section 4.4.3), see kdtree_traverse.cpp.
+  template <bool AnyHit, class Counter>
+  void trace(const Ray& ray, Hit& hit, Counter& counter) const;
+
+  /// Work of the last build in elementary steps, independent of the machine: references
+  /// classified, and for kd-sah ends sorted and candidates examined.
+  [[nodiscard]] std::uint64_t build_operations() const;
+
+ private:
+  StructureKind kind_;
+  KdTreeSettings settings_;
+  MemoryMode mode_;
+  std::span<const Triangle> triangles_;
+  Bounds bounds_;
+  KdBuildMemory memory_;
+  KdSahMemory sah_memory_;
+};
+
+}  // namespace encore::accel

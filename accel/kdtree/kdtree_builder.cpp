@@ -1,0 +1,190 @@
+#include "accel/kdtree/kdtree_builder.h"
+
+#include "accel/kdtree/kd_node.h"
+#include "accel/kdtree/triangle_clip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace encore::accel {
+
+namespace {
+
+using scene::Bounds;
+
+constexpr std::size_t kSmallScene = 5000;
+constexpr std::uint32_t kSmallSceneLeaf = 2;
+constexpr std::uint32_t kLeaf = 10;
+constexpr std::uint64_t kReferencesPerTriangle = 16;
+constexpr std::uint64_t kReferencesOnTop = 65536;
+constexpr std::uint64_t kMostReferences = 0xFFFFFFFEU;
+
+template <class T>
+void make_room(Array<T>& array, std::size_t size, AllocationCount& count) {
+  if (size > array.size()) array.grow(size, count);
+}
+
+}  // namespace
+
+KdLimits kd_limits(const KdTreeSettings& settings, std::size_t triangle_count) {
+  const double count = std::max<double>(1.0, double(triangle_count));
+  const bool natural = settings.depth_logarithm == KdTreeSettings::DepthLogarithm::natural;
+  const double logarithm = natural ? std::log(count) : std::log2(count);
+  const double depth = std::floor(settings.depth_offset + settings.depth_factor * logarithm);
+  KdLimits limits{};
+  // Written so that NaN ends up at 0.
+  limits.depth = depth > 0.0 ? static_cast<std::uint32_t>(std::min<double>(depth, kKdDepthCap)) : 0;
+  limits.leaf_triangles = settings.leaf_triangles > 0
+                              ? static_cast<std::uint32_t>(settings.leaf_triangles)
+                              : (triangle_count < kSmallScene ? kSmallSceneLeaf : kLeaf);
+  limits.bad_splits = static_cast<std::uint32_t>(std::max(0, settings.bad_split_retries));
+  limits.bad_margin = settings.bad_split_margin;
+  limits.references = std::min<std::uint64_t>(
+      kReferencesPerTriangle * triangle_count + kReferencesOnTop, kMostReferences);
+  return limits;
+}
+
+void KdBuilder::run(const Bounds& bounds, KdSplitter& splitter) {
+  start();
+  std::array<KdTask, kKdDepthCap + 1> waiting;
+  std::size_t waiting_count = 0;
+  KdTask task{.box = bounds, .count = static_cast<std::uint32_t>(triangles_.size())};
+  for (;;) {
+    const std::span<const KdReference> references{references_in_work(task.count), task.count};
+    const KdSplit split = must_be_leaf(task) ? KdSplit{} : splitter.choose(task, references);
+    make_room(memory_.nodes, node_count_ + 1, memory_.allocations);
+    if (split.axis >= 0) {
+      // An inner node: put the upper child aside and go on with the lower one, which is the next
+      // node and so needs no index.
+      const Counts counts = partition(task, split);
+      waiting[waiting_count] = child(task, split, true, counts);
+      waiting[waiting_count++].parent = static_cast<std::uint32_t>(node_count_);
+      memory_.nodes[node_count_++] = kd_inner(split.axis, split.position);
+      task = child(task, split, false, counts);
+      in_left_ = true;
+      continue;
+    }
+
+    // A leaf: take the upper child put aside last, whose references lie on top of the stack.
+    add_leaf(references);
+    if (!in_left_) right_count_ -= task.count;
+    if (waiting_count == 0) break;
+    task = waiting[--waiting_count];
+    in_left_ = false;
+    kd_set_upper(memory_.nodes[task.parent], static_cast<std::uint32_t>(node_count_));
+  }
+  memory_.nodes.shrink(node_count_);
+  memory_.references.shrink(leaf_references_);
+  if (mode_ == MemoryMode::fresh) {
+    memory_.left.release();
+    memory_.right.release();
+  }
+}
+
+void KdBuilder::start() {
+  // First guesses of what real scenes need; the arrays grow where more is asked for.
+  const std::size_t count = triangles_.size();
+  memory_.allocations = {};
+  memory_.references_classified = 0;
+  memory_.triangle_box_tests = 0;
+  memory_.nodes.reset(count / 2 + 64, mode_, memory_.allocations);
+  memory_.references.reset(2 * count + 64, mode_, memory_.allocations);
+  memory_.left.reset(count, mode_, memory_.allocations);
+  memory_.right.reset(count + count / 2, mode_, memory_.allocations);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Bounds bounds = scene::bounds_of(triangles_[i]);
+    memory_.left[i] = {bounds.min, static_cast<std::uint32_t>(i), bounds.max, 0};
+  }
+}
+
+KdReference* KdBuilder::references_in_work(std::uint32_t count) {
+  return in_left_ ? memory_.left.data() : memory_.right.data() + (right_count_ - count);
+}
+
+bool KdBuilder::must_be_leaf(const KdTask& task) const {
+  if (task.count <= limits_.leaf_triangles) return true;
+  if (task.depth >= limits_.depth || task.bad_splits >= limits_.bad_splits) return true;
+  // Each reference may end up on both sides.
+  const std::uint64_t alive =
+      leaf_references_ + right_count_ + (in_left_ ? std::uint64_t{task.count} : 0);
+  return alive + task.count > limits_.references || node_count_ + 2 + kKdDepthCap > kKdMostNodes;
+}
+
+void KdBuilder::add_leaf(std::span<const KdReference> references) {
+  make_room(memory_.references, leaf_references_ + references.size(), memory_.allocations);
+  memory_.nodes[node_count_++] = kd_leaf(static_cast<std::uint32_t>(leaf_references_),
+                                         static_cast<std::uint32_t>(references.size()));
+  std::uint32_t* out = memory_.references.data() + leaf_references_;
+  for (std::size_t i = 0; i < references.size(); ++i) out[i] = references[i].triangle;
+  leaf_references_ += references.size();
+}
+
+KdBuilder::Counts KdBuilder::partition(const KdTask& task, const KdSplit& split) {
+  // Lower references go to the front of `left`. Upper ones go on top of the stack, or over the
+  // node's own batch if that is where it lies: no more is ever written than was read before.
+  if (in_left_) make_room(memory_.right, right_count_ + task.count, memory_.allocations);
+  const KdReference* source = references_in_work(task.count);
+  const std::size_t upper_base = in_left_ ? right_count_ : right_count_ - task.count;
+  KdReference* lower = memory_.left.data();
+  KdReference* upper = memory_.right.data() + upper_base;
+  const int axis = split.axis;
+  Counts counts{0, 0};
+  for (std::uint32_t i = 0; i < task.count; ++i) {
+    const KdReference reference = source[i];
+    const bool below = reference.min[axis] < split.position;
+    const bool above = reference.max[axis] > split.position;
+    if (below && above) {
+      partition_straddler(reference, task, split, lower + counts.lower, upper + counts.upper,
+                          counts);
+      continue;
+    }
+    // Write to both ends, count on one: no branch to mispredict.
+    const bool to_lower = below || (!above && split.planar_below);
+    lower[counts.lower] = reference;
+    upper[counts.upper] = reference;
+    counts.lower += to_lower ? 1 : 0;
+    counts.upper += to_lower ? 0 : 1;
+  }
+  right_count_ = upper_base + counts.upper;
+  memory_.references_classified += task.count;
+  return counts;
+}
+
+void KdBuilder::partition_straddler(const KdReference& reference, const KdTask& task,
+                                    const KdSplit& split, KdReference* lower_end,
+                                    KdReference* upper_end, Counts& counts) {
+  memory_.triangle_box_tests += 2;
+  const SplitExtent parts =
+      split_extent(triangles_[reference.triangle], task.box, {reference.min, reference.max},
+                   split.axis, split.position);
+  if (!parts.lower.empty()) {
+    *lower_end = {parts.lower.min, reference.triangle, parts.lower.max, 0};
+    ++counts.lower;
+  }
+  if (!parts.upper.empty()) {
+    *upper_end = {parts.upper.min, reference.triangle, parts.upper.max, 0};
+    ++counts.upper;
+  }
+}
+
+KdTask KdBuilder::child(const KdTask& parent, const KdSplit& split, bool upper,
+                        const Counts& counts) const {
+  // A split that is known to pay is bad only if neither child has fewer triangles: cutting off
+  // empty space or an outlier serves the child that keeps the rest.
+  const std::uint32_t count = upper ? counts.upper : counts.lower;
+  const bool pays = split.worth == KdSplit::Worth::pays;
+  const std::uint32_t judged = pays ? std::min(counts.lower, counts.upper) : count;
+  const std::int64_t fewer = std::int64_t{parent.count} - std::int64_t{judged};
+  const bool bad = split.worth == KdSplit::Worth::costs || fewer <= limits_.bad_margin;
+
+  KdTask task = parent;
+  (upper ? task.box.min : task.box.max)[split.axis] = split.position;
+  task.count = count;
+  task.depth = parent.depth + 1;
+  task.bad_splits = parent.bad_splits + (bad ? 1 : 0);
+  task.last_axis = split.axis;
+  return task;
+}
+
+}  // namespace encore::accel
