@@ -1,0 +1,89 @@
+#include "accel/bvh/bvh.h"
+
+#include "shaders/shared/bindings.h"
+
+#include <array>
+#include <stdexcept>
+
+namespace encore::accel {
+
+namespace {
+
+constexpr std::size_t kMostTriangles = std::size_t{1} << 31;  // 2 #T - 1 nodes, indexed in 32 bits
+
+Bounds bounds_of_node(const gpu::BvhNode& node) {
+  return {node.min, node.max};
+}
+
+}  // namespace
+
+Bvh::Bvh(StructureKind kind, const BvhSettings& settings, MemoryMode memory)
+    : kind_(kind), settings_(settings), memory_(memory) {}
+
+void Bvh::build(std::span<const Triangle> triangles) {
+  if (triangles.size() > kMostTriangles) {
+    throw std::length_error("a bounding volume hierarchy holds at most 2147483648 triangles");
+  }
+  triangles_ = triangles;
+  allocations_ = {};
+  refit_ = {};
+  max_depth_ = 0;
+  pairs_.reset(triangles.size(), memory_, allocations_);
+  if (!triangles.empty()) build_median();
+  if (memory_ == MemoryMode::fresh) {
+    items_.release();
+    changed_.release();
+  }
+}
+
+std::span<const gpu::BvhNode> Bvh::nodes() const {
+  if (triangles_.empty()) return {};
+  return {root(), 2 * triangles_.size() - 1};
+}
+
+BuildStats Bvh::stats() const {
+  BuildStats stats;
+  stats.triangles = stats.leaves = stats.references = triangles_.size();
+  stats.largest_leaf = triangles_.empty() ? 0 : 1;
+  stats.allocations = allocations_.requests;
+  stats.allocated_bytes = allocations_.bytes;
+  stats.nodes = nodes().size();
+  stats.max_depth = max_depth_;
+  stats.bytes = nodes().size_bytes();
+  // A box without area is met by no random ray: its cost stays 0.
+  double cost = 0;
+  for (const gpu::BvhNode& node : nodes()) {
+    cost += bounds_of_node(node).area() * (node.count == 0 ? 1.0 : node.count);
+  }
+  const double root_area = nodes().empty() ? 0.0 : bounds_of_node(*root()).area();
+  stats.sah_cost = root_area > 0 ? cost / root_area : 0.0;
+  return stats;
+}
+
+GpuBuffers Bvh::gpu_buffers() const {
+  return {{ENCORE_BINDING_NODES, std::as_bytes(nodes())}};
+}
+
+void Bvh::visit(const std::function<bool(const NodeView&)>& visitor) const {
+  if (triangles_.empty()) return;
+  struct Task {
+    std::uint32_t node, depth;
+  };
+  std::array<Task, kMaxDepth + 1> waiting;
+  std::uint32_t waiting_count = 0;
+  waiting[waiting_count++] = {0, 0};
+  while (waiting_count > 0) {
+    const Task task = waiting[--waiting_count];
+    const gpu::BvhNode& node = root()[task.node];
+    NodeView view;
+    view.bounds = bounds_of_node(node);
+    view.depth = task.depth;
+    view.leaf = node.count != 0;
+    if (view.leaf) view.triangles = {&node.first, 1};
+    if (!visitor(view) || view.leaf) continue;
+    waiting[waiting_count++] = {node.first + 1, task.depth + 1};
+    waiting[waiting_count++] = {node.first, task.depth + 1};
+  }
+}
+
+}  // namespace encore::accel

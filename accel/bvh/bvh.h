@@ -1,0 +1,107 @@
+#pragma once
+
+#include "accel/acceleration_structure.h"
+#include "accel/array.h"
+#include "accel/settings.h"
+#include "shaders/shared/gpu_types.h"
+
+#include <cstdint>
+#include <span>
+
+namespace encore::accel {
+
+/// What the last update() found and did.
+struct RefitCounts {
+  std::uint64_t leaves_changed = 0;  ///< leaves whose bounds differ from their triangle's
+  std::uint64_t leaves_written = 0;
+  std::uint64_t inner_written = 0;
+};
+
+/// Binary bounding volume hierarchy over single triangles (thesis 3.3, after Lauterbach et al.
+/// 2006): split at the spatial median, axes in turn, tight boxes, one triangle a leaf, so exactly
+/// 2 #T - 1 nodes in one array that is allocated once.
+///
+/// The two children of a node lie side by side in one 64-byte line and always after their parent,
+/// so that one pass over the array in reverse refits the tree. Leaves hold their triangle's index
+/// itself; there is no array of references.
+///
+/// Where we differ from the thesis: no recursion; the tree's depth is bounded (see kMaxDepth); rays
+/// go to the nearer child first and skip what begins behind the best hit; refitting shrinks boxes
+/// too and reaches every node.
+class Bvh final : public TracedStructure<Bvh> {
+ public:
+  /// Nodes at this depth and below are split into halves by number, whatever their triangles look
+  /// like.
+  static constexpr std::uint32_t kMaxSpatialDepth = 216;
+  /// No node lies deeper. Spatial medians alone give no such bound: a triangle goes by its lower
+  /// end, so a row of long ones that begin just below the middle loses one triangle a level. Halves
+  /// of less than 2^32 triangles are single ones after at most 32 levels.
+  static constexpr std::uint32_t kMaxDepth = kMaxSpatialDepth + 32;
+
+  Bvh(StructureKind kind, const BvhSettings& settings, MemoryMode memory);
+
+  [[nodiscard]] std::string_view name() const override { return to_string(kind_); }
+  /// Throws std::length_error for more than 2^31 triangles.
+  void build(std::span<const Triangle> triangles) override;
+  /// Refits every box to the moved triangles, bottom-up; the topology stays. Afterwards boxes are
+  /// as tight as after build(). Builds instead if the number of triangles is another.
+  ///
+  /// BvhSettings::update_case other than `real` emulates the cost of a frame in which that share of
+  /// the leaves moved (thesis 5.1.1), on a scene that stands still: leaves that count as unchanged
+  /// keep their boxes even if their triangles did move.
+  void update(std::span<const Triangle> triangles) override;
+  [[nodiscard]] bool can_refit() const override { return true; }
+  [[nodiscard]] BuildStats stats() const override;
+  [[nodiscard]] GpuBuffers gpu_buffers() const override;
+  void visit(const std::function<bool(const NodeView&)>& visitor) const override;
+
+  template <bool AnyHit, class Counter>
+  void trace(const Ray& ray, Hit& hit, Counter& counter) const;
+
+  /// The nodes; the root is the first. Empty if there are no triangles.
+  [[nodiscard]] std::span<const gpu::BvhNode> nodes() const;
+  [[nodiscard]] const RefitCounts& last_refit() const { return refit_; }
+
+ private:
+  /// The two children of one node: a cache line.
+  struct alignas(64) NodePair {
+    gpu::BvhNode left, right;
+  };
+  /// A triangle while building: its bounds and its index.
+  struct Item {
+    glm::vec3 min;
+    std::uint32_t triangle;
+    glm::vec3 max;
+    std::uint32_t unused;
+  };
+  struct Range;
+
+  // Node 0, the root, is the right half of pair 0, whose left half is not used: so pair k holds the
+  // nodes 2k - 1 and 2k.
+  [[nodiscard]] gpu::BvhNode* root() { return reinterpret_cast<gpu::BvhNode*>(pairs_.data()) + 1; }
+  [[nodiscard]] const gpu::BvhNode* root() const {
+    return reinterpret_cast<const gpu::BvhNode*>(pairs_.data()) + 1;
+  }
+
+  void build_median();
+  void fill_items();
+  Range fit(gpu::BvhNode& node, std::uint32_t begin, std::uint32_t end) const;
+  [[nodiscard]] std::uint32_t split(const Range& range, std::uint32_t depth);
+  template <UpdateCase Case>
+  void refit();
+  template <UpdateCase Case>
+  bool refit_node(std::uint32_t index);
+
+  StructureKind kind_;
+  BvhSettings settings_;
+  MemoryMode memory_;
+  std::span<const Triangle> triangles_;
+  Array<NodePair> pairs_;
+  Array<Item> items_;            // building only
+  Array<std::uint8_t> changed_;  // updating only: whether anything in pair k changed
+  std::uint32_t max_depth_ = 0;
+  AllocationCount allocations_;
+  RefitCounts refit_;
+};
+
+}  // namespace encore::accel
