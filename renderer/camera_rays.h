@@ -1,0 +1,52 @@
+#pragma once
+
+#include "scene/camera.h"
+#include "scene/ray.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace encore::renderer {
+
+/// Pixels x0 <= x < x1, y0 <= y < y1, counted from the top left of the image.
+struct PixelRect {
+  int x0 = 0;
+  int y0 = 0;
+  int x1 = 0;
+  int y1 = 0;
+
+  [[nodiscard]] int width() const { return x1 - x0; }
+  [[nodiscard]] int height() const { return y1 - y0; }
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+  }
+};
+
+/// A camera made ready for images of one size, once a frame. The ray through the centre of pixel
+/// (x, y) runs along forward + (x + 0.5 - center_x) * right + (center_y - y - 0.5) * up.
+/// In double precision, so that eyes 1e18 units away or 1e-18 apart from their target still work.
+struct CameraFrame {
+  glm::vec3 origin{0.0F};
+  glm::dvec3 forward{0.0, 0.0, -1.0};  ///< unit length
+  glm::dvec3 right{0.0};               ///< one pixel to the right on the plane at distance 1
+  glm::dvec3 up{0.0};                  ///< one pixel up on that plane; as long as `right`
+  double center_x = 0.0;               ///< in pixels from the left and from the top
+  double center_y = 0.0;
+};
+
+/// Prepares a camera for images of width x height pixels. Pixels are square: the camera's field of
+/// view is the vertical one, the horizontal one follows from the image's shape. If `up` is zero or
+/// parallel to the view (to within 1e-6 rad), the coordinate axis that is most nearly at right
+/// angles to the view takes its place; of equal ones y before z before x.
+/// Throws std::invalid_argument if the size is not positive, a number is not finite, eye and target
+/// coincide, or the field of view is not inside (0, 180) degrees.
+CameraFrame make_camera_frame(const scene::Camera& camera, int width, int height);
+
+/// Writes the rays through the pixel centres of `rect`, row by row; rays.size() == rect.count().
+/// Directions have unit length, t runs over (0, inf). A ray depends on its pixel alone, not on the
+/// rectangle it was asked for in.
+void camera_rays(const CameraFrame& frame, const PixelRect& rect, std::span<scene::Ray> rays);
+
+}  // namespace encore::renderer

@@ -1,0 +1,172 @@
+#include "renderer/cpu_tracer.h"
+
+#include "renderer/camera_rays.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+
+namespace encore::renderer {
+
+namespace {
+
+using scene::Hit;
+using scene::Ray;
+
+// Measured from 8 x 8 to 64 x 64: no difference above the noise (5 %). This size keeps all workers
+// busy to the end of a small image, and a tile's rays and hits (12 KiB) in the first-level cache.
+constexpr int kTileWidth = 16;
+constexpr int kTileHeight = 16;
+constexpr std::size_t kTilePixels = std::size_t{kTileWidth} * kTileHeight;
+
+/// The rays and hits of one tile; lies on the stack of the thread that works on it.
+struct TileBuffer {
+  std::array<Ray, kTilePixels> ray_store;
+  std::array<Hit, kTilePixels> hit_store;
+  std::span<Ray> rays;
+  std::span<Hit> hits;
+
+  TileBuffer(const CameraFrame& frame, const PixelRect& tile)
+      : rays(std::span(ray_store).first(tile.count())),
+        hits(std::span(hit_store).first(tile.count())) {
+    camera_rays(frame, tile, rays);
+  }
+};
+
+std::size_t pixel_index(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(x);
+}
+
+/// Copies a tile's values to their places in an image of `width` pixels a row.
+template <class T>
+void store_tile(const PixelRect& tile, std::span<const T> values, int width, std::vector<T>& all) {
+  const auto columns = static_cast<std::size_t>(tile.width());
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const auto row = values.subspan(static_cast<std::size_t>(y - tile.y0) * columns, columns);
+    std::copy(row.begin(), row.end(), &all[pixel_index(tile.x0, y, width)]);
+  }
+}
+
+std::uint64_t count_hits(std::span<const Hit> hits) {
+  std::uint64_t found = 0;
+  for (const Hit& hit : hits) found += hit.found() ? 1 : 0;
+  return found;
+}
+
+}  // namespace
+
+CpuTracer::CpuTracer(int threads)
+    : threads_(threads > 0 ? threads : tbb::this_task_arena::max_concurrency()) {
+  // The library never has more threads than processors unless it is told to.
+  if (threads_ > tbb::this_task_arena::max_concurrency()) {
+    more_threads_.emplace(tbb::global_control::max_allowed_parallelism,
+                          static_cast<std::size_t>(threads_));
+  }
+  if (threads_ > 1) arena_.emplace(threads_);
+}
+
+void CpuTracer::init(const RenderInput& input) {
+  if (input.scene == nullptr || input.triangles == nullptr || input.structure == nullptr) {
+    throw std::invalid_argument("the CPU tracer needs a scene, its triangles and a structure");
+  }
+  input_ = input;
+  refresh();
+}
+
+void CpuTracer::refresh() {
+  check_ready();
+  shade_ = choose_shading(shading_needs(*input_.scene, *input_.triangles));
+}
+
+void CpuTracer::render(const scene::Camera& camera, Image& image) {
+  check_ready();
+  const CameraFrame frame = make_camera_frame(camera, image.width, image.height);
+  if (image.pixels.size() != PixelRect{0, 0, image.width, image.height}.count()) {
+    throw std::invalid_argument("the image holds more or fewer pixels than its size says");
+  }
+  const ShadingScene shading{input_.scene, input_.triangles};
+  for_each_tile(image.width, image.height, [&](const PixelRect& tile) {
+    TileBuffer buffer(frame, tile);
+    input_.structure->intersect(buffer.rays, buffer.hits);
+    hits_.fetch_add(count_hits(buffer.hits), std::memory_order_relaxed);
+    // Shade row by row, as the rows of a tile lie apart in the image.
+    const auto columns = static_cast<std::size_t>(tile.width());
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      const std::size_t first = static_cast<std::size_t>(y - tile.y0) * columns;
+      shade_(shading, buffer.rays.subspan(first, columns), buffer.hits.subspan(first, columns),
+             {&image.pixels[pixel_index(tile.x0, y, image.width)], columns});
+    }
+  });
+}
+
+void CpuTracer::trace_hits(const scene::Camera& camera, int width, int height,
+                           std::vector<Hit>& hits) {
+  check_ready();
+  const CameraFrame frame = make_camera_frame(camera, width, height);
+  hits.resize(PixelRect{0, 0, width, height}.count());
+  for_each_tile(width, height, [&](const PixelRect& tile) {
+    TileBuffer buffer(frame, tile);
+    input_.structure->intersect(buffer.rays, buffer.hits);
+    hits_.fetch_add(count_hits(buffer.hits), std::memory_order_relaxed);
+    store_tile<Hit>(tile, buffer.hits, width, hits);
+  });
+}
+
+void CpuTracer::trace_counters(const scene::Camera& camera, int width, int height,
+                               std::vector<accel::TraceCounters>& counters) {
+  check_ready();
+  const CameraFrame frame = make_camera_frame(camera, width, height);
+  counters.resize(PixelRect{0, 0, width, height}.count());
+  for_each_tile(width, height, [&](const PixelRect& tile) {
+    TileBuffer buffer(frame, tile);
+    std::array<accel::TraceCounters, kTilePixels> counter_store;
+    const auto costs = std::span(counter_store).first(tile.count());
+    input_.structure->intersect_counted(buffer.rays, buffer.hits, costs);
+    hits_.fetch_add(count_hits(buffer.hits), std::memory_order_relaxed);
+    store_tile<accel::TraceCounters>(tile, costs, width, counters);
+  });
+}
+
+template <class TileWork>
+void CpuTracer::for_each_tile(int width, int height, const TileWork& work) {
+  const int columns = (width + kTileWidth - 1) / kTileWidth;
+  const int rows = (height + kTileHeight - 1) / kTileHeight;
+  hits_.store(0, std::memory_order_relaxed);
+  complete_.store(true, std::memory_order_relaxed);
+  const auto run_tile = [&](int index) {
+    if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) {
+      complete_.store(false, std::memory_order_relaxed);
+      return;
+    }
+    const int x = index % columns * kTileWidth;
+    const int y = index / columns * kTileHeight;
+    work(PixelRect{x, y, std::min(x + kTileWidth, width), std::min(y + kTileHeight, height)});
+  };
+
+  if (!arena_) {
+    for (int index = 0; index < columns * rows; ++index) run_tile(index);
+    return;
+  }
+  // One tile a task: tiles differ a hundredfold in cost, and a task costs far less than a tile.
+  arena_->execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, columns * rows, 1),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int index = range.begin(); index < range.end(); ++index) run_tile(index);
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+void CpuTracer::check_ready() const {
+  if (input_.structure == nullptr) throw std::logic_error("the CPU tracer was not given a scene");
+}
+
+}  // namespace encore::renderer
