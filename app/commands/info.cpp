@@ -1,0 +1,172 @@
+#include "app/commands/commands.h"
+#include "app/common_options.h"
+#include "app/json_text.h"
+#include "app/number_text.h"
+#include "scene/sample_scenes.h"
+#include "scene/scene_info.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace encore::app {
+
+namespace {
+
+struct InfoOptions : CommonOptions {
+  double time_s = 0.0;
+};
+
+void print_line(const std::string& name, const std::string& value) {
+  fmt::print("  {:<22} {}\n", name, value);
+}
+
+std::string vec3_text(const glm::vec3& v) {
+  return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z);
+}
+
+std::string distribution_text(const scene::Distribution& d) {
+  return fmt::format(
+      "min {:.3g}, 10 % {:.3g}, median {:.3g}, mean {:.3g}, 90 % {:.3g}, 99 % {:.3g}, max {:.3g}",
+      d.min, d.percentile_10, d.median, d.mean, d.percentile_90, d.percentile_99, d.max);
+}
+
+std::string animation_text(const scene::AnimationInfo& a) {
+  if (a.kind == "static") return "none";
+  std::string text = fmt::format("{}, {} of the instances move, loop of {:g} s", a.kind,
+                                 a.moving_instances, a.duration_s);
+  if (a.frames > 0) text += fmt::format(", {} frames", a.frames);
+  if (a.min_triangles != a.max_triangles) {
+    text += fmt::format(", {} to {} triangles", with_separators(a.min_triangles),
+                        with_separators(a.max_triangles));
+  }
+  return text;
+}
+
+std::string material_text(const scene::Material& m) {
+  std::string text = fmt::format("Kd {}", vec3_text(m.diffuse));
+  if (m.specular != glm::vec3(0.0F)) {
+    text += fmt::format("  Ks {} Ns {:g}", vec3_text(m.specular), m.shininess);
+  }
+  if (m.emission != glm::vec3(0.0F)) text += fmt::format("  Ke {}", vec3_text(m.emission));
+  if (m.opacity != 1.0F) text += fmt::format("  d {:g} Ni {:g}", m.opacity, m.index_of_refraction);
+  if (m.reflectivity != 0.0F) text += fmt::format("  reflectivity {:g}", m.reflectivity);
+  return text;
+}
+
+void print_text(const scene::Scene& scene, const scene::SceneInfo& info) {
+  fmt::print("{} ({})\n", info.name, info.source);
+  print_line("triangles", with_separators(info.triangles));
+  print_line("vertices", with_separators(info.vertices));
+  print_line("instances", fmt::format("{} of {} meshes", info.instances, info.models));
+  if (info.triangles > 0) {
+    print_line("bounds",
+               fmt::format("{} to {}", vec3_text(info.bounds.min), vec3_text(info.bounds.max)));
+    print_line("surface area", fmt::format("{:g}", info.surface_area));
+    print_line("density",
+               fmt::format("{:.4g} triangles a unit of volume", info.triangles_per_volume));
+    print_line(
+        "occupied",
+        fmt::format("{:.1f} % of {}x{}x{} cells; the fullest holds {:.1f} % of the triangles",
+                    100.0 * info.occupied_share, info.coarse_cells.x, info.coarse_cells.y,
+                    info.coarse_cells.z, 100.0 * info.fullest_cell_share));
+    print_line("extent / scene", distribution_text(info.extent));
+    print_line("area / mean area", distribution_text(info.area));
+    print_line("unevenness of areas",
+               fmt::format("{:.3f} (Gini: 0 all equal, 1 one holds all)", info.area_unevenness));
+  }
+  if (info.degenerate_triangles > 0) {
+    print_line("zero-area triangles", with_separators(info.degenerate_triangles));
+  }
+  if (info.dropped_non_finite > 0) {
+    print_line("dropped (NaN or inf)", with_separators(info.dropped_non_finite));
+  }
+  print_line("animation", animation_text(info.animation));
+  print_line("shading", fmt::format("{}{}", info.has_normals ? "smooth normals" : "flat",
+                                    info.has_colors ? ", vertex colours" : ""));
+  print_line("memory", fmt::format("{} meshes, {} triangle list", bytes_text(info.mesh_bytes),
+                                   bytes_text(info.triangle_list_bytes)));
+  print_line("camera",
+             fmt::format("eye {} target {} fov {:g}", vec3_text(scene.camera.eye),
+                         vec3_text(scene.camera.target), scene.camera.vertical_fov_degrees));
+  print_line("lights", fmt::format("{}", info.lights));
+  print_line("materials", fmt::format("{}", info.materials));
+  for (const scene::Material& material : scene.materials) {
+    fmt::print("    {:<20} {}\n", material.name.empty() ? "(unnamed)" : material.name,
+               material_text(material));
+  }
+  for (const scene::Preference& preference : scene.preferences) {
+    print_line("setting", fmt::format("{} = {}", preference.key, preference.value));
+  }
+  for (const std::string& warning : info.warnings) print_line("warning", warning);
+}
+
+std::string json_vec3(const glm::vec3& v) {
+  return fmt::format("[{}, {}, {}]", json_number(v.x), json_number(v.y), json_number(v.z));
+}
+
+std::string json_distribution(const scene::Distribution& d) {
+  return fmt::format(
+      "{{\"min\": {}, \"p10\": {}, \"median\": {}, \"mean\": {}, \"p90\": {}, \"p99\": {}, "
+      "\"max\": {}}}",
+      json_number(d.min), json_number(d.percentile_10), json_number(d.median), json_number(d.mean),
+      json_number(d.percentile_90), json_number(d.percentile_99), json_number(d.max));
+}
+
+void print_json(const scene::SceneInfo& info) {
+  std::string warnings;
+  for (const std::string& warning : info.warnings) {
+    warnings += (warnings.empty() ? "" : ", ") + json_text(warning);
+  }
+  fmt::print(
+      "{{\"name\": {}, \"source\": {}, \"triangles\": {}, \"vertices\": {}, \"instances\": {}, "
+      "\"models\": {}, \"materials\": {}, \"lights\": {},\n \"degenerate_triangles\": {}, "
+      "\"dropped_non_finite\": {}, \"has_normals\": {}, \"has_colors\": {},\n",
+      json_text(info.name), json_text(info.source), info.triangles, info.vertices, info.instances,
+      info.models, info.materials, info.lights, info.degenerate_triangles, info.dropped_non_finite,
+      info.has_normals, info.has_colors);
+  fmt::print(
+      " \"bounds\": {{\"min\": {}, \"max\": {}}}, \"surface_area\": {}, "
+      "\"triangles_per_volume\": {},\n \"occupied_share\": {}, \"fullest_cell_share\": {}, "
+      "\"extent\": {},\n \"area\": {}, \"area_unevenness\": {},\n",
+      json_vec3(info.bounds.min), json_vec3(info.bounds.max), json_number(info.surface_area),
+      json_number(info.triangles_per_volume), json_number(info.occupied_share),
+      json_number(info.fullest_cell_share), json_distribution(info.extent),
+      json_distribution(info.area), json_number(info.area_unevenness));
+  fmt::print(
+      " \"animation\": {{\"kind\": {}, \"moving_instances\": {}, \"frames\": {}, \"duration_s\": "
+      "{}, \"min_triangles\": {}, \"max_triangles\": {}}},\n \"mesh_bytes\": {}, "
+      "\"triangle_list_bytes\": {}, \"warnings\": [{}]}}\n",
+      json_text(info.animation.kind), info.animation.moving_instances, info.animation.frames,
+      json_number(info.animation.duration_s), info.animation.min_triangles,
+      info.animation.max_triangles, info.mesh_bytes, info.triangle_list_bytes, warnings);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, ExitCode& result) {
+  auto* command = app.add_subcommand(
+      "info", "Describe a scene: triangles, bounds, density, extents, materials, animation");
+  const auto options = std::make_shared<InfoOptions>();
+  add_scene_options(*command, *options, false);
+  add_output_options(*command, *options);
+  command->add_option("--time", options->time_s, "Time of the animation in seconds (default 0)");
+  command->callback([options, &result] {
+    // Warnings are part of the description here, so the terminal stays silent about them.
+    Terminal terminal(true);
+    const std::string name =
+        options->scenes.empty() ? std::string(scene::kDefaultSceneName) : options->scenes.front();
+    const scene::Scene scene = open_scene(name, *options, terminal);
+    scene::TriangleList list;
+    scene::update_triangles(scene, options->time_s, list);
+    const scene::SceneInfo info = scene::describe(scene, list);
+    if (options->json) {
+      print_json(info);
+    } else {
+      print_text(scene, info);
+    }
+    result = ExitCode::ok;
+  });
+}
+
+}  // namespace encore::app

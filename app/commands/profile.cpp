@@ -1,0 +1,68 @@
+#include "app/commands/commands.h"
+#include "app/interrupt.h"
+#include "app/profile_run.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace encore::app {
+
+namespace {
+
+void add_profile_options(CLI::App& command, ProfileOptions& options) {
+  add_scene_options(command, options, true);
+  add_structure_options(command, options, true);
+  command
+      .add_option("--policy,-p", options.policies,
+                  "What a moving scene does to the structure: rebuild, refit, static; several "
+                  "separated by commas; default: the scene's own, else rebuild")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      .add_option("--test", options.tests,
+                  "build (a loop of builds, of updates with --policy refit), static (one build, "
+                  "then frames), dynamic (animate, build or update, render); several separated by "
+                  "commas; default: all that apply")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--size", options.size, "Picture: a side or WIDTHxHEIGHT (default 256)");
+  command
+      .add_option("--seconds", options.seconds,
+                  "Seconds to measure each configuration, at least three operations (default "
+                  "1.5); longer narrows the confidence intervals")
+      ->check(CLI::Range(0.0, 1e6));
+  command.add_option("--out,-o", options.out,
+                     "New or empty folder for the session; default: one in "
+                     "$XDG_DATA_HOME/encore/sessions (~/.local/share)");
+  command.add_option("--update-case", options.update_case,
+                     "Leaves that a refit treats as changed: real (default), best (none), average "
+                     "(60 %), worst (all)");
+  command.add_option("--device", options.device, "cpu (default)");
+  add_thread_option(command, options);
+  add_output_options(command, options);
+}
+
+}  // namespace
+
+void add_profile_command(CLI::App& app, ExitCode& result) {
+  auto* command = app.add_subcommand(
+      "profile", "Measure what structures cost to build, update and trace, and save the session");
+  const auto options = std::make_shared<ProfileOptions>();
+  add_profile_options(*command, *options);
+  command->footer(
+      "Before a structure is measured, a sample of its hits is compared with brute force; exit\n"
+      "code 6 if they differ. Ctrl+C keeps and prints what was measured so far (exit code 130).\n"
+      "The session folder holds session.toml, frames.csv, summary.csv and samples.csv; see\n"
+      "docs/session-format.md.");
+  command->callback([options, &result] {
+    Terminal terminal(options->quiet);
+    const ProfileResult profile = run_profile(*options, standard_tools(), interrupted, terminal);
+    fmt::print("{}", profile.output);
+    std::fflush(stdout);
+    result = profile.code;
+  });
+}
+
+}  // namespace encore::app

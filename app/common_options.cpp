@@ -1,0 +1,193 @@
+#include "app/common_options.h"
+
+#include "app/exit_code.h"
+#include "scene/sample_scenes.h"
+#include "scene/scene_file.h"
+#include "scene/text_suggestion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+namespace encore::app {
+
+namespace {
+
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
+  const std::string_view near = scene::closest_name(word, candidates);
+  return near.empty() ? std::string() : fmt::format(" (did you mean '{}'?)", near);
+}
+
+std::vector<std::string_view> structure_names() {
+  std::vector<std::string_view> names;
+  for (const accel::StructureKind kind : accel::all_structure_kinds()) {
+    names.push_back(accel::to_string(kind));
+  }
+  return names;
+}
+
+/// All that a comparison of structures is about: everything but the oracle.
+std::vector<accel::StructureKind> default_kinds() {
+  std::vector<accel::StructureKind> kinds = accel::all_structure_kinds();
+  std::erase(kinds, accel::StructureKind::brute);
+  return kinds;
+}
+
+std::string unknown_structure(std::string_view name) {
+  const auto names = structure_names();
+  return fmt::format("unknown structure '{}'{}; there are {}", name, did_you_mean(name, names),
+                     fmt::join(names, ", "));
+}
+
+std::vector<accel::StructureKind> kinds_from_names(const std::vector<std::string>& names) {
+  std::vector<accel::StructureKind> kinds;
+  for (const std::string& name : names) {
+    if (name == "all") {
+      const auto all = default_kinds();
+      kinds.insert(kinds.end(), all.begin(), all.end());
+      continue;
+    }
+    const auto kind = accel::parse_structure_kind(name);
+    if (!kind) throw UsageError(unknown_structure(name));
+    kinds.push_back(*kind);
+  }
+  return kinds;
+}
+
+/// The kinds that the scene file prefers; empty if it does not say.
+std::vector<accel::StructureKind> kinds_from_scene(const scene::Scene& scene) {
+  std::vector<accel::StructureKind> kinds;
+  for (const scene::Preference& preference : scene.preferences) {
+    if (preference.key != "structure") continue;
+    if (preference.value == "all") return default_kinds();
+    const auto kind = accel::parse_structure_kind(preference.value);
+    if (!kind) {
+      throw scene::InputError(preference.place + ": " + unknown_structure(preference.value));
+    }
+    kinds.push_back(*kind);
+  }
+  return kinds;
+}
+
+bool is_structure_setting(std::string_view key) {
+  return key.starts_with("grid.") || key.starts_with("kd.") || key.starts_with("bvh.");
+}
+
+std::string setting_problem(accel::StructureSpec& spec, std::string_view key,
+                            std::string_view value) {
+  std::string problem = accel::apply_setting(spec, key, value);
+  if (problem.starts_with("unknown")) problem += did_you_mean(key, accel::setting_keys());
+  return problem;
+}
+
+void apply_settings(accel::StructureSpec& spec, const CommonOptions& options,
+                    const scene::Scene& scene) {
+  for (const scene::Preference& preference : scene.preferences) {
+    if (!is_structure_setting(preference.key)) continue;
+    const std::string problem = setting_problem(spec, preference.key, preference.value);
+    if (!problem.empty()) throw scene::InputError(preference.place + ": " + problem);
+  }
+  for (const std::string& setting : options.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw UsageError(fmt::format("--set takes key=value, not '{}'", setting));
+    }
+    const std::string_view view(setting);
+    const std::string problem =
+        setting_problem(spec, view.substr(0, equals), view.substr(equals + 1));
+    if (!problem.empty()) throw UsageError("--set: " + problem);
+  }
+}
+
+}  // namespace
+
+void add_output_options(CLI::App& command, CommonOptions& options) {
+  command.add_flag("--json", options.json, "Print the result as JSON on standard output");
+  command.add_flag("--quiet,-q", options.quiet, "No progress, information or warnings");
+}
+
+void add_scene_options(CLI::App& command, CommonOptions& options, bool many) {
+  auto* scenes = command.add_option(
+      many ? "scenes" : "scene", options.scenes,
+      fmt::format("Sample scene, scene file (.toml, .txt) or model file (.obj, .ply, .3ds …); "
+                  "default: {}",
+                  scene::kDefaultSceneName));
+  if (!many) scenes->expected(0, 1);
+  command
+      .add_option("--search-path", options.search_path,
+                  "Folder where scene files look for their models (repeatable)")
+      ->allow_extra_args(false);
+}
+
+void add_structure_options(CLI::App& command, CommonOptions& options, bool many) {
+  const auto names = structure_names();
+  auto* structure =
+      command.add_option("--structure,-s", options.structures,
+                         fmt::format("{}; {}", fmt::join(names, ", "),
+                                     many ? "several separated by commas; default: all but brute"
+                                          : "default: bvh-median"));
+  structure->delimiter(',')->allow_extra_args(false);
+  if (!many) structure->expected(1);
+  command
+      .add_option("--set", options.settings,
+                  fmt::format("Structure setting key=value (repeatable): {}",
+                              fmt::join(accel::setting_keys(), ", ")))
+      ->allow_extra_args(false);
+  command.add_option("--memory", options.memory,
+                     "pool: reuse memory from build to build (default); malloc: allocate afresh");
+}
+
+void add_thread_option(CLI::App& command, CommonOptions& options) {
+  command.add_option("--threads,-t", options.threads, "Threads for rendering; 0: all (default)")
+      ->check(CLI::Range(0, 4096));
+}
+
+scene::Scene open_scene(const std::string& name_or_path, const CommonOptions& options,
+                        Terminal& terminal) {
+  const std::vector<std::filesystem::path> search(options.search_path.begin(),
+                                                  options.search_path.end());
+  scene::Scene scene = scene::load_scene(name_or_path, search);
+  for (const std::string& message : scene.warnings.messages) terminal.warning(message);
+  return scene;
+}
+
+std::vector<accel::StructureSpec> chosen_structures(const CommonOptions& options,
+                                                    const scene::Scene& scene) {
+  const auto memory = accel::parse_memory_mode(options.memory);
+  if (!memory) {
+    throw UsageError(
+        fmt::format("unknown memory mode '{}'; there are pool and malloc", options.memory));
+  }
+  std::vector<accel::StructureKind> kinds = kinds_from_names(options.structures);
+  if (kinds.empty()) kinds = kinds_from_scene(scene);
+  if (kinds.empty()) kinds = default_kinds();
+
+  std::vector<accel::StructureSpec> specs;
+  for (const accel::StructureKind kind : kinds) {
+    accel::StructureSpec spec = accel::default_spec(kind);
+    spec.memory = *memory;
+    apply_settings(spec, options, scene);
+    specs.push_back(spec);
+  }
+  return specs;
+}
+
+ImageSize parse_size(const std::string& text) {
+  const auto number = [&](std::string_view part) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    if (error != std::errc{} || end != part.data() + part.size() || value < 1 || value > 16384) {
+      throw UsageError(
+          fmt::format("--size takes a side or WIDTHxHEIGHT, each 1 to 16384, not '{}'", text));
+    }
+    return value;
+  };
+  const std::string_view view(text);
+  const std::size_t cross = view.find('x');
+  if (cross == std::string_view::npos) return {number(view), number(view)};
+  return {number(view.substr(0, cross)), number(view.substr(cross + 1))};
+}
+
+}  // namespace encore::app

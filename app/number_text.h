@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace encore::app {
+
+/// 1234567 → "1,234,567".
+std::string with_separators(std::uint64_t number);
+
+/// A number of bytes in the unit that fits: "512 B", "1.5 MiB".
+std::string bytes_text(std::uint64_t bytes);
+
+}  // namespace encore::app

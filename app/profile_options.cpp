@@ -1,0 +1,185 @@
+#include "app/profile_options.h"
+
+#include "app/exit_code.h"
+#include "scene/sample_scenes.h"
+#include "scene/text_suggestion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+
+namespace encore::app {
+
+namespace {
+
+using accel::Policy;
+
+constexpr TestKind kAllTests[] = {TestKind::build, TestKind::fixed, TestKind::animated};
+
+TestKind parse_test(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const TestKind test : kAllTests) {
+    if (name == to_string(test)) return test;
+    names.push_back(to_string(test));
+  }
+  throw UsageError(fmt::format("unknown test '{}'{}; there are {}", name,
+                               scene::did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+std::string unknown_policy(const std::string& name) {
+  const std::string_view names[] = {accel::to_string(Policy::rebuild),
+                                    accel::to_string(Policy::refit),
+                                    accel::to_string(Policy::fixed)};
+  return fmt::format("unknown policy '{}'{}; there are {}", name, scene::did_you_mean(name, names),
+                     fmt::join(names, ", "));
+}
+
+void check_device(const std::string& device, const std::string& place) {
+  if (device == "cpu") return;
+  const std::string problem = fmt::format("unknown device '{}'; there is cpu", device);
+  if (place.empty()) throw UsageError(problem);
+  throw scene::InputError(place + ": " + problem);
+}
+
+/// The last value the scene file states for a setting; null if it does not.
+const scene::Preference* preference(const scene::Scene& scene, std::string_view key) {
+  const scene::Preference* found = nullptr;
+  for (const scene::Preference& one : scene.preferences) {
+    if (one.key == key) found = &one;
+  }
+  return found;
+}
+
+/// The policies asked for, else the scene's, else rebuild; each once.
+std::vector<Policy> chosen_policies(const ProfileOptions& options, const scene::Scene& scene) {
+  std::vector<Policy> policies;
+  for (const std::string& name : options.policies) {
+    const auto policy = accel::parse_policy(name);
+    if (!policy) throw UsageError(unknown_policy(name));
+    if (std::find(policies.begin(), policies.end(), *policy) == policies.end()) {
+      policies.push_back(*policy);
+    }
+  }
+  if (!policies.empty()) return policies;
+  if (const scene::Preference* stated = preference(scene, "policy")) {
+    const auto policy = accel::parse_policy(stated->value);
+    if (!policy) throw scene::InputError(stated->place + ": " + unknown_policy(stated->value));
+    return {*policy};
+  }
+  return {Policy::rebuild};
+}
+
+int chosen_threads(const ProfileOptions& options, const scene::Scene& scene) {
+  if (options.threads > 0) return options.threads;
+  const scene::Preference* stated = preference(scene, "threads");
+  if (stated == nullptr) return 0;
+  int threads = 0;
+  const char* end = stated->value.data() + stated->value.size();
+  const auto result = std::from_chars(stated->value.data(), end, threads);
+  if (result.ec != std::errc{} || result.ptr != end || threads < 0 || threads > 4096) {
+    throw scene::InputError(
+        fmt::format("{}: threads must be 0 to 4096, not '{}'", stated->place, stated->value));
+  }
+  return threads;
+}
+
+void set_update_case(accel::StructureSpec& spec, const std::string& name) {
+  if (name.empty()) return;
+  const auto update_case = accel::parse_update_case(name);
+  if (!update_case) {
+    throw UsageError(
+        fmt::format("unknown update case '{}'; there are real, best, average, worst", name));
+  }
+  if (auto* bvh = std::get_if<accel::BvhSettings>(&spec.settings)) bvh->update_case = *update_case;
+}
+
+/// Lists the tests of one structure: those that render nothing new are left out, such as refitting
+/// a structure that can only be rebuilt when rebuilding is asked for as well.
+class ScenePlan {
+ public:
+  ScenePlan(const ProfileOptions& options, const WorkloadTools& tools, Terminal& terminal,
+            std::shared_ptr<const scene::Scene> scene)
+      : options_(options), tools_(tools), terminal_(terminal), scene_(std::move(scene)) {
+    for (const std::string& name : options.tests) tests_.push_back(parse_test(name));
+    named_ = !tests_.empty();
+    if (!named_) tests_.assign(std::begin(kAllTests), std::end(kAllTests));
+    policies_ = chosen_policies(options, *scene_);
+    if (const scene::Preference* device = preference(*scene_, "device")) {
+      check_device(device->value, device->place);
+    }
+  }
+
+  void append_to(std::vector<WorkloadSpec>& all) {
+    const std::vector<accel::StructureSpec> structures = chosen_structures(options_, *scene_);
+    for (const TestKind test : tests_) warn_about(test);
+    WorkloadSpec spec{
+        scene_, {}, {}, {}, parse_size(options_.size), chosen_threads(options_, *scene_)};
+    for (const accel::StructureSpec& structure : structures) {
+      spec.structure = structure;
+      set_update_case(spec.structure, options_.update_case);
+      const bool can_refit = tools_.make_structure(spec.structure)->can_refit();
+      for (const TestKind test : tests_) {
+        spec.test = test;
+        for (const Policy policy : distinct_policies(test, can_refit)) {
+          spec.policy = policy;
+          if (reason_to_skip(test, policy, *scene_).empty()) all.push_back(spec);
+        }
+      }
+    }
+  }
+
+ private:
+  /// Says once a scene why a test that was asked for by name is left out.
+  void warn_about(TestKind test) {
+    for (const Policy policy : policies_) {
+      const std::string reason = reason_to_skip(test, policy, *scene_);
+      if (reason.empty() || reason == last_reason_) continue;
+      if (named_) terminal_.warning(reason);
+      last_reason_ = reason;
+    }
+  }
+
+  [[nodiscard]] std::vector<Policy> distinct_policies(TestKind test, bool can_refit) const {
+    if (test == TestKind::fixed) return {Policy::fixed};
+    std::vector<Policy> distinct;
+    for (Policy policy : policies_) {
+      if (policy == Policy::refit && !can_refit) policy = Policy::rebuild;
+      if (std::find(distinct.begin(), distinct.end(), policy) == distinct.end()) {
+        distinct.push_back(policy);
+      }
+    }
+    return distinct;
+  }
+
+  const ProfileOptions& options_;
+  const WorkloadTools& tools_;
+  Terminal& terminal_;
+  std::shared_ptr<const scene::Scene> scene_;
+  std::vector<TestKind> tests_;
+  bool named_ = false;
+  std::vector<Policy> policies_;
+  std::string last_reason_;
+};
+
+}  // namespace
+
+std::vector<WorkloadSpec> list_workloads(const ProfileOptions& options, const WorkloadTools& tools,
+                                         Terminal& terminal) {
+  check_device(options.device, {});
+  std::vector<std::string> names = options.scenes;
+  if (names.empty()) names.emplace_back(scene::kDefaultSceneName);
+  std::vector<WorkloadSpec> all;
+  for (const std::string& name : names) {
+    const auto scene = std::make_shared<const scene::Scene>(open_scene(name, options, terminal));
+    ScenePlan(options, tools, terminal, scene).append_to(all);
+  }
+  if (all.empty()) {
+    throw UsageError(
+        "nothing to measure: none of the tests applies to the scenes and policies asked for");
+  }
+  return all;
+}
+
+}  // namespace encore::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "app/common_options.h"
+#include "app/terminal.h"
+#include "app/workloads.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace encore::app {
+
+/// What `encore profile` is asked to do, as the command line says it.
+struct ProfileOptions : CommonOptions {
+  std::vector<std::string> policies;  ///< empty: the scene's own preference, else rebuild
+  std::vector<std::string> tests;     ///< empty: all that apply
+  std::string size = "256";
+  /// Seconds that each configuration is measured. Longer: narrower confidence intervals.
+  double seconds = 1.5;
+  std::string out;          ///< session folder; empty: a new one among the user's data
+  std::string update_case;  ///< empty: as the structure's settings say
+  std::string device = "cpu";
+};
+
+/// Opens the scenes and lists everything to measure, scene by scene, structure by structure, in the
+/// order asked for. A test that does not apply is left out, with a warning if it was asked for by
+/// name. Throws UsageError for a wrong option or if nothing is left, scene::InputError.
+std::vector<WorkloadSpec> list_workloads(const ProfileOptions& options, const WorkloadTools& tools,
+                                         Terminal& terminal);
+
+}  // namespace encore::app

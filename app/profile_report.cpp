@@ -1,0 +1,193 @@
+#include "app/profile_report.h"
+
+#include "app/json_text.h"
+#include "app/profile_table.h"
+#include "energy/session_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+namespace encore::app {
+
+namespace {
+
+using energy::Phase;
+using energy::SummaryRow;
+using Align = TextTable::Align;
+
+std::string value_of(const SummaryRow& row, std::string_view key) {
+  for (const energy::KeyValue& part : row.configuration) {
+    if (part.key == key) return part.value;
+  }
+  return {};
+}
+
+std::optional<double> counter_of(const SummaryRow& row, std::string_view name) {
+  for (const energy::Counter& counter : row.counters) {
+    if (counter.name == name) return counter.value;
+  }
+  return std::nullopt;
+}
+
+/// A figure with the given decimals; nothing where it does not apply.
+std::string figure(std::optional<double> value, int decimals = 0) {
+  return value ? fmt::format("{:.{}f}", *value, decimals) : std::string();
+}
+
+std::string percent(std::optional<double> share) {
+  return share ? fmt::format("{:.1f}%", 100.0 * *share) : std::string();
+}
+
+/// Bytes in the unit that leaves one to four digits before the point.
+std::string bytes(std::optional<double> value) {
+  if (!value) return {};
+  if (*value < 1e4) return fmt::format("{:.0f} B", *value);
+  if (*value < 1e7) return fmt::format("{:.1f} kB", *value / 1e3);
+  if (*value < 1e10) return fmt::format("{:.1f} MB", *value / 1e6);
+  return fmt::format("{:.1f} GB", *value / 1e9);
+}
+
+/// "depth 18" of a tree, "22x22x22" of a grid.
+std::string shape(const SummaryRow& row) {
+  if (const auto depth = counter_of(row, "max_depth")) return fmt::format("depth {:.0f}", *depth);
+  const auto x = counter_of(row, "grid_x");
+  if (!x) return {};
+  return fmt::format("{:.0f}x{:.0f}x{:.0f}", *x, counter_of(row, "grid_y").value_or(0),
+                     counter_of(row, "grid_z").value_or(0));
+}
+
+std::string mean_ms(const SummaryRow& row) {
+  std::optional<double> half;
+  if (row.ci95) half = energy::milliseconds(*row.ci95);
+  return with_uncertainty(energy::milliseconds(row.mean), half);
+}
+
+std::string build_table(const std::vector<SummaryRow>& rows) {
+  TextTable table;
+  for (const char* title : {"scene", "structure", "policy"}) table.add_column(title, Align::left);
+  for (const char* title :
+       {"triangles", "builds", "updates", "ms each ± 95 % CI", "nodes", "leaves", "references",
+        "shape", "memory", "allocs", "allocated", "tri-box tests", "SAH cost"}) {
+    table.add_column(title);
+  }
+  for (const SummaryRow& row : rows) {
+    if (value_of(row, "test") != "build") continue;
+    const auto count = [&](Phase phase) {
+      const std::uint64_t n = row.phase_counts[phase];
+      return n > 0 ? std::to_string(n) : std::string();
+    };
+    table.add_row(
+        {value_of(row, "scene"), value_of(row, "structure"), value_of(row, "policy"),
+         value_of(row, "triangles"), count(Phase::build), count(Phase::update), mean_ms(row),
+         figure(counter_of(row, "nodes")), figure(counter_of(row, "leaves")),
+         figure(counter_of(row, "references")), shape(row),
+         bytes(counter_of(row, "structure_bytes")), figure(counter_of(row, "allocations")),
+         bytes(counter_of(row, "allocated_bytes")), figure(counter_of(row, "triangle_box_tests")),
+         figure(counter_of(row, "sah_cost"), 1)});
+  }
+  return table.empty() ? std::string() : "\nBuilds\n" + table.text();
+}
+
+std::string frame_table(const std::vector<SummaryRow>& rows) {
+  TextTable table;
+  for (const char* title : {"scene", "test", "structure", "policy"}) {
+    table.add_column(title, Align::left);
+  }
+  for (const char* title :
+       {"size", "frames", "ms a frame ± 95 % CI", "frames/s", "animate", "build", "update",
+        "transfer", "render", "builds", "updates", "SAH cost", "Mrays/s", "hits"}) {
+    table.add_column(title);
+  }
+  for (const SummaryRow& row : rows) {
+    const std::string test = value_of(row, "test");
+    if (test == "build") continue;
+    // The number of builds tells something in the dynamic test only.
+    const auto count = [&](Phase phase) {
+      return test == "dynamic" ? std::to_string(row.phase_counts[phase]) : std::string();
+    };
+    table.add_row({value_of(row, "scene"), test, value_of(row, "structure"),
+                   value_of(row, "policy"), value_of(row, "width") + "x" + value_of(row, "height"),
+                   std::to_string(row.phase_counts[Phase::render]), mean_ms(row),
+                   row.mean.value > 0 ? fmt::format("{:.1f}", 1.0 / row.mean.value) : "",
+                   percent(row.shares[Phase::animate]), percent(row.shares[Phase::build]),
+                   percent(row.shares[Phase::update]), percent(row.shares[Phase::transfer]),
+                   percent(row.shares[Phase::render]), count(Phase::build), count(Phase::update),
+                   figure(counter_of(row, "sah_cost"), 1),
+                   figure(counter_of(row, "mrays_per_s"), 3), figure(counter_of(row, "hits"))});
+  }
+  return table.empty() ? std::string() : "\nFrames\n" + table.text();
+}
+
+/// The columns whose content is always text, whatever it looks like.
+bool is_text(std::string_view column) {
+  for (const std::string_view name :
+       {"scene", "device", "structure", "policy", "test", "energy_provenance"}) {
+    if (column == name) return true;
+  }
+  return false;
+}
+
+std::string json_result(const SummaryRow& row) {
+  energy::SessionColumns columns;
+  for (const energy::KeyValue& part : row.configuration) columns.configuration.push_back(part.key);
+  for (const energy::Counter& counter : row.counters) columns.counters.push_back(counter.name);
+  const energy::CsvRecord header = energy::summary_header(columns);
+  const energy::CsvRecord record = energy::to_record(row);
+  std::string json = "{";
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    if (i > 0) json += ", ";
+    json += json_text(header[i]) + ": ";
+    if (record[i].empty()) {
+      json += "null";
+    } else if (!is_text(header[i]) && energy::parse_csv_number(record[i])) {
+      json += record[i];
+    } else {
+      json += json_text(record[i]);
+    }
+  }
+  return json + "}";
+}
+
+}  // namespace
+
+std::string with_uncertainty(double value, std::optional<double> half_width) {
+  // Two digits of the half-width, or four of the value if it has none.
+  const auto decimals_for = [](double number, int digits) {
+    if (!(number > 0)) return 3;
+    return std::clamp(digits - 1 - static_cast<int>(std::floor(std::log10(number))), 0, 9);
+  };
+  if (!half_width) return fmt::format("{:.{}f} ± ?", value, decimals_for(value, 4));
+  const int decimals = decimals_for(*half_width, 2);
+  return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, *half_width, decimals);
+}
+
+std::string report_text(const ProfileReport& report) {
+  std::string text =
+      fmt::format("Energy: {} ({})\nSession: {}{}\n", energy::to_string(report.sensor.origin),
+                  report.sensor.detail, report.folder.string(),
+                  report.state == energy::SessionState::complete
+                      ? std::string()
+                      : fmt::format(" ({})", energy::to_string(report.state)));
+  if (report.rows.empty()) return text + "\nNothing was measured.\n";
+  return text + build_table(report.rows) + frame_table(report.rows);
+}
+
+std::string report_json(const ProfileReport& report) {
+  std::string json = fmt::format(
+      "{{\n  \"session\": {},\n  \"state\": {},\n  \"energy\": {{\"provenance\": {}, "
+      "\"detail\": {}}},\n  \"results\": [",
+      json_text(report.folder.string()), json_text(energy::to_string(report.state)),
+      json_text(energy::to_string(report.sensor.origin)), json_text(report.sensor.detail));
+  const char* separator = "\n    ";
+  for (const SummaryRow& row : report.rows) {
+    json += separator + json_result(row);
+    separator = ",\n    ";
+  }
+  return json + (report.rows.empty() ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+}  // namespace encore::app

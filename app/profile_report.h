@@ -1,0 +1,33 @@
+#pragma once
+
+#include "energy/provenance.h"
+#include "energy/session.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace encore::app {
+
+/// What `encore profile` prints when it is done.
+struct ProfileReport {
+  std::filesystem::path folder;
+  energy::SessionState state = energy::SessionState::complete;
+  energy::Provenance sensor;
+  std::vector<energy::SummaryRow> rows;
+};
+
+/// For people: where the joules come from, where the session lies, and a table of the builds and
+/// one of the frames, each only if there are any.
+std::string report_text(const ProfileReport& report);
+
+/// The same as one JSON object. Each result has the columns of summary.csv by name; numbers are
+/// numbers, what does not apply is null, what could not be measured "unavailable".
+std::string report_json(const ProfileReport& report);
+
+/// "12.345 ± 0.012": a value and the half-width of its interval, which shows two digits and so
+/// decides how many the value shows. Without an interval "12.35 ± ?".
+std::string with_uncertainty(double value, std::optional<double> half_width);
+
+}  // namespace encore::app
