@@ -79,7 +79,7 @@ TEST(CommandLine, InfoDescribesAScene) {
 }
 
 TEST(CommandLine, VerifyFindsNoMismatchOnAnAnimatedScene) {
-  const ProgramResult result = run_encore({"verify", "toys", "--rays", "300"});
+  const ProgramResult result = run_encore({"verify", "toys", "--rays", "50"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   EXPECT_TRUE(contains(result.out, " 0 mismatches")) << result.out;
   EXPECT_TRUE(contains(result.out, "refit")) << result.out;
