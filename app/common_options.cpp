@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <string_view>
 
@@ -132,7 +131,7 @@ void add_structure_options(CLI::App& command, CommonOptions& options, bool many)
   if (!many) structure->expected(1);
   command
       .add_option("--set", options.settings,
-                  fmt::format("Structure setting key=value (repeatable): {}",
+                  fmt::format("Structure setting key=value (repeatable; docs/settings.md): {}",
                               fmt::join(accel::setting_keys(), ", ")))
       ->allow_extra_args(false);
   command.add_option("--memory", options.memory,

@@ -1,5 +1,6 @@
 #include "accel/grid/grid.h"
 
+#include "accel/grid/prefetch.h"
 #include "shaders/shared/bindings.h"
 
 #include <algorithm>
@@ -43,7 +44,10 @@ void Grid::build(std::span<const Triangle> triangles) {
   triangle_box_tests_ = 0;
 
   Bounds bounds;
-  for (const Triangle& t : triangles) bounds.extend(scene::bounds_of(t));
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    prefetch_ahead(triangles, i);
+    bounds.extend(scene::bounds_of(triangles[i]));
+  }
   choose_cells(bounds);
 
   // First pass: which cells each triangle goes into, and how many references each cell gets.
@@ -82,11 +86,11 @@ void Grid::choose_cells(const Bounds& bounds) {
 // Returns how many cells all ranges hold together.
 std::uint64_t Grid::find_ranges() {
   std::uint64_t entries = 0;
-  CellRange* out = ranges_.data();
-  for (const Triangle& t : triangles_) {
-    const CellRange range = layout_.range_of(scene::bounds_of(t));
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    prefetch_ahead(triangles_, i);
+    const CellRange range = layout_.range_of(scene::bounds_of(triangles_[i]));
     entries += range.cells();
-    *out++ = range;
+    ranges_[i] = range;
   }
   return entries;
 }

@@ -1,5 +1,6 @@
 #include "accel/grid/cell_overlap.h"
 #include "accel/grid/grid.h"
+#include "accel/grid/prefetch.h"
 #include "accel/triangle_box.h"
 
 #include <algorithm>
@@ -124,6 +125,7 @@ std::size_t Grid::list_exact_entries() {
   std::uint32_t* const entries = entries_.data();
   std::size_t n = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    prefetch_ahead(triangles_, i);
     const CellRange range = ranges_[i];
     if (range.ambiguous()) {
       // A triangle is connected, so it passes through at least one cell of its range.

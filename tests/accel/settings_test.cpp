@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <fstream>
+#include <iterator>
 
 namespace encore::accel {
 namespace {
@@ -51,6 +52,14 @@ TEST(Settings, ValuesArriveAndAreBounded) {
   EXPECT_EQ(apply_setting(spec, "kd.leaf_triangles", "4"), "");
   EXPECT_NE(apply_setting(spec, "kd.leaf_triangles", "four"), "");
   EXPECT_NE(apply_setting(spec, "grid.cell_count", "4").find("unknown"), std::string::npos);
+}
+
+TEST(Settings, TheDocumentationNamesEveryKey) {
+  std::ifstream in(ENCORE_SOURCE_DIR "/docs/settings.md");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  for (const std::string_view key : setting_keys()) {
+    EXPECT_NE(text.find("| `" + std::string(key) + "` |"), std::string::npos) << key;
+  }
 }
 
 }  // namespace
