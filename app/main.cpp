@@ -2,13 +2,17 @@
 #include "app/exit_code.h"
 #include "app/interrupt.h"
 #include "scene/diagnostics.h"
+#include "scene/text_suggestion.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
+#include <vector>
 
 namespace {
 
@@ -17,6 +21,21 @@ using encore::app::ExitCode;
 int fail(ExitCode code, const std::string& message) {
   fmt::print(stderr, "encore: {}\n", message);
   return static_cast<int>(code);
+}
+
+/// A first word that is no command would else be reported as a missing one.
+void check_command_name(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string_view word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  const std::string_view near = encore::scene::closest_name(word, candidates);
+  throw encore::app::UsageError(
+      fmt::format("unknown command '{}'{}; there are {}", word,
+                  near.empty() ? std::string() : fmt::format(" (did you mean '{}'?)", near),
+                  fmt::join(names, ", ")));
 }
 
 int run(int argc, char** argv) {
@@ -37,6 +56,7 @@ int run(int argc, char** argv) {
   encore::app::add_scenes_command(app, result);
 
   try {
+    check_command_name(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);

@@ -71,7 +71,7 @@ ExitCode verify(const VerifyOptions& options) {
   std::uint64_t mismatches = 0;
   std::uint64_t rays = 0;
   const char* separator = "[\n  ";
-  if (!options.json) print_header();
+  bool header_printed = options.json;
   for (const std::string& name : names) {
     const scene::Scene scene = open_scene(name, options, terminal);
     const auto specs = chosen_structures(options, scene);
@@ -79,6 +79,8 @@ ExitCode verify(const VerifyOptions& options) {
       terminal.progress("verifying " + scene.name, share);
     });
     terminal.progress_done();
+    if (!header_printed) print_header();
+    header_printed = true;
     for (const VerificationRow& row : rows) {
       mismatches += row.hits.mismatches();
       rays += row.hits.rays;

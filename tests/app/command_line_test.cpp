@@ -1,18 +1,17 @@
 // The program as a user meets it: exit codes, one clear message, data on standard output.
 #include "run_program.h"
 #include "scene/sample_scenes.h"
+#include "tests/support/files.h"
+#include "tests/support/messages.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 namespace encore::app {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 TEST(CommandLine, HelpExplainsEveryCommand) {
   const ProgramResult all = run_encore({"--help"});
@@ -86,16 +85,11 @@ TEST(CommandLine, VerifyFindsNoMismatchOnAnAnimatedScene) {
 }
 
 TEST(CommandLine, RenderWritesAPictureWhereAskedAndNowhereElse) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / "encore-render-grüße.png";
-  std::filesystem::remove(file);
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "grüße.png";
   const ProgramResult result = run_encore({"render", "mug", "--size", "64", "--out", file});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  std::ifstream in(file, std::ios::binary);
-  char magic[4] = {};
-  in.read(magic, 4);
-  EXPECT_EQ(std::string(magic + 1, 3), "PNG");
-  std::filesystem::remove(file);
+  EXPECT_TRUE(test::contents_of(file).starts_with("\x89PNG"));
   const ProgramResult nowhere = run_encore({"render", "mug", "--out", "/no/such/folder/x.png"});
   EXPECT_EQ(nowhere.exit_code, 1);
   EXPECT_TRUE(contains(nowhere.err, "/no/such/folder")) << nowhere.err;
