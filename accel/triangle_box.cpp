@@ -1,7 +1,5 @@
 #include "accel/triangle_box.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>

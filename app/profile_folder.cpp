@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 
@@ -84,7 +83,7 @@ fs::path make_session_folder(const std::string& wanted, const std::string& start
 
   // create_directory tells whether it was us, so that two runs in one second do not share one.
   for (int copy = 1;; ++copy) {
-    const fs::path folder = parent / (copy == 1 ? name : fmt::format("{}-{}", name, copy));
+    fs::path folder = parent / (copy == 1 ? name : fmt::format("{}-{}", name, copy));
     if (fs::create_directory(folder, error)) return folder;
     if (error) throw cannot_make(folder, error);
   }

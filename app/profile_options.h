@@ -4,7 +4,6 @@
 #include "app/terminal.h"
 #include "app/workloads.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 

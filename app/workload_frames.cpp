@@ -3,7 +3,7 @@
 #include "renderer/camera_rays.h"
 
 #include <algorithm>
-#include <cmath>
+#include <stdexcept>
 
 namespace encore::app {
 

@@ -8,10 +8,8 @@
 #include "scene/scene.h"
 #include "scene/triangles.h"
 
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>

@@ -1,7 +1,5 @@
 #include "energy/session_columns.h"
 
-#include <algorithm>
-
 namespace encore::energy {
 
 namespace {

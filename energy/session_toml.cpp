@@ -7,7 +7,6 @@
 #include <cstring>
 #include <fstream>
 #include <locale>
-#include <sstream>
 
 namespace encore::energy {
 
@@ -67,7 +66,7 @@ class TableReader {
       if (!value || *value < 0) throw wrong(key);
       return static_cast<std::uint64_t>(*value);
     } else {
-      const auto value = node.template value<T>();
+      auto value = node.template value<T>();
       if (!value) throw wrong(key);
       return value;
     }

@@ -2,6 +2,7 @@
 
 #include "scene/basic_shapes.h"
 #include "scene/mesh_reader.h"
+#include "scene/model_input.h"
 #include "scene/sample_scenes.h"
 #include "scene/text_suggestion.h"
 #include "scene/triangles.h"
@@ -9,9 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -47,13 +46,6 @@ bool natural_less(const std::string& a, const std::string& b) {
   }
   if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
   return a < b;
-}
-
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 /// The largest mesh that an instance shows, and the longest list of materials.

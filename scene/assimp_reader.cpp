@@ -12,7 +12,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <span>
 #include <vector>
 
 namespace encore::scene {

@@ -2,10 +2,10 @@
 
 #include "scene/diagnostics.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <new>
 
 namespace encore::scene {
 

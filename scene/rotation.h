@@ -20,7 +20,7 @@ Rotation rotation_around(const glm::vec3& axis, double degrees);
 /// Spherical interpolation along the shorter arc; `u` in [0, 1].
 Rotation slerp(const Rotation& a, const Rotation& b, double u);
 
-glm::dmat3 rotation_matrix(const Rotation& rotation);
+glm::dmat3 rotation_matrix(const Rotation& q);
 
 /// The matrix of rotation_around; exact for multiples of 90 degrees around a coordinate axis.
 glm::dmat3 axis_angle_matrix(const glm::vec3& axis, double degrees);

@@ -102,7 +102,8 @@ void describe_density(const TriangleList& list, SceneInfo& info) {
       const double along = (centre[axis] - double(info.bounds.min[axis])) / sides[axis];
       cell[axis] = std::clamp(static_cast<int>(along * cells[axis]), 0, cells[axis] - 1);
     }
-    ++counts[static_cast<std::size_t>((cell.z * cells.y + cell.y) * cells.x + cell.x)];
+    const int index = (cell.z * cells.y + cell.y) * cells.x + cell.x;
+    ++counts[static_cast<std::size_t>(index)];
   }
   const auto occupied =
       counts.size() - static_cast<std::size_t>(std::count(counts.begin(), counts.end(), 0U));

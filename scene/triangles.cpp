@@ -4,12 +4,8 @@
 #include "scene/motion.h"
 #include "scene/placement.h"
 
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
 #include <algorithm>
 #include <cstring>
-#include <span>
 #include <utility>
 
 namespace encore::scene {

@@ -2,7 +2,6 @@
 #include "accel/bvh/four_floats.h"
 
 #include <array>
-#include <utility>
 
 namespace encore::accel {
 

@@ -11,13 +11,6 @@ namespace encore::scene::samples {
 
 namespace {
 
-const Vec kY(0.0, 1.0, 0.0);
-
-Mesh smooth(Mesh mesh) {
-  smooth_normals(mesh);
-  return mesh;
-}
-
 glm::mat4 at(const Vec& position, double yaw = 0.0, double scale = 1.0) {
   return matrix_of(Frame{position}.turned(kY, yaw), scale);
 }

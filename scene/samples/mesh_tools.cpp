@@ -95,6 +95,11 @@ void smooth_normals(Mesh& mesh) {
   for (std::size_t i = 0; i < sums.size(); ++i) mesh.normals[i] = narrow(normalize(sums[i]));
 }
 
+Mesh smooth(Mesh mesh) {
+  smooth_normals(mesh);
+  return mesh;
+}
+
 Mesh flat_shaded(const Mesh& mesh) {
   Mesh flat;
   flat.material_of = mesh.material_of;

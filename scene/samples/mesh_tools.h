@@ -36,6 +36,8 @@ void fit(Mesh& mesh, double longest = 27.0);
 /// One unit normal a vertex: the mean of its triangles' normals weighted by area, so that the big
 /// faces beside a narrow bevel stay flat to the eye.
 void smooth_normals(Mesh& mesh);
+/// The mesh with smooth_normals.
+Mesh smooth(Mesh mesh);
 
 /// The mesh with three vertices of its own a triangle, and the triangle's normal on them: for parts
 /// with sharp edges.

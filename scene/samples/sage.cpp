@@ -7,10 +7,6 @@ namespace encore::scene::samples {
 
 namespace {
 
-const Vec kX(1.0, 0.0, 0.0);
-const Vec kY(0.0, 1.0, 0.0);
-const Vec kZ(0.0, 0.0, 1.0);
-
 /// A seat of two rows of petals, the upper ones standing, the lower ones hanging.
 void add_lotus(Sculpture& s) {
   s.ellipsoid({{0.0, 1.4, 0.4}}, {8.0, 1.6, 6.6}, 0.5);

@@ -215,17 +215,6 @@ void Sculpture::limb(const std::vector<PathPoint>& path, int pieces, double blen
   }
 }
 
-void Sculpture::ring(const Frame& frame, double major_radius, double minor_radius, double blend) {
-  const Vec reach(major_radius + minor_radius);
-  strokes_.push_back({frame.origin - reach, frame.origin + reach,
-                      [=](const Vec& p) {
-                        const Vec q = frame.local(p);
-                        const double out = std::sqrt(q.x * q.x + q.z * q.z) - major_radius;
-                        return std::sqrt(out * out + q.y * q.y) - minor_radius;
-                      },
-                      blend, false});
-}
-
 void Sculpture::carve_ellipsoid(const Frame& frame, const Vec& radii, double blend) {
   ellipsoid(frame, radii, blend);
   strokes_.back().carve = true;

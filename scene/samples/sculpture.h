@@ -18,8 +18,6 @@ class Sculpture {
   void ball(const Vec& center, double radius, double blend);
   /// A limb that tapers along a smooth path; `pieces` straight pieces.
   void limb(const std::vector<PathPoint>& path, int pieces, double blend);
-  /// A ring around the frame's y axis.
-  void ring(const Frame& frame, double major_radius, double minor_radius, double blend);
   void carve_ellipsoid(const Frame& frame, const Vec& radii, double blend);
   /// Removes a disc: a cylinder around the frame's y axis, 2 * half_height tall.
   void carve_disc(const Frame& frame, double radius, double half_height, double blend);

@@ -7,8 +7,6 @@ namespace encore::scene::samples {
 
 namespace {
 
-const Vec kZ(0.0, 0.0, 1.0);
-
 Sculpture cow_sculpture() {
   Sculpture s;
   s.ellipsoid({{0.0, 8.2, 0.0}}, {7.0, 3.5, 3.2}, 1.0);
@@ -75,7 +73,7 @@ Mesh spider(std::size_t triangles) {
   Mesh legs;
   for (int i = 0; i < 8; ++i) {
     const double side = i % 2 == 0 ? 1.0 : -1.0;
-    const double turn = 50.0 - 33.0 * (i / 2);
+    const double turn = 50.0 - 33.0 * double(i / 2);  // two legs a pair
     const Vec out = rotate({0.0, 0.0, side}, {0.0, 1.0, 0.0}, side * turn);
     const auto at = [&](double far, double y) { return Vec(0.0, y, 0.0) + out * far; };
     Mesh leg = tube({{at(1.0, 2.6), 0.5},

@@ -12,10 +12,6 @@ namespace encore::scene::samples {
 
 namespace {
 
-const Vec kX(1.0, 0.0, 0.0);
-const Vec kY(0.0, 1.0, 0.0);
-const Vec kZ(0.0, 0.0, 1.0);
-
 /// One arm of the scissors: a blade to the right, a shank and a finger ring to the left.
 /// 4 * 9 - 4 = 32 and 2 * 16 * 8 = 256 triangles.
 Mesh scissor_arm() {
@@ -37,11 +33,6 @@ Mesh scissor_arm() {
   const Frame place = Frame{{-9.2, -4.2, 0.0}}.turned(kX, 90.0).turned(kZ, 24.0);
   append(arm, moved(ring, place), 1);
   return arm;
-}
-
-Mesh smooth(Mesh mesh) {
-  smooth_normals(mesh);
-  return mesh;
 }
 
 }  // namespace

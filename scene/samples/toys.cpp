@@ -14,9 +14,6 @@ namespace encore::scene::samples {
 namespace {
 
 constexpr double kSeconds = 8.0;
-const Vec kX(1.0, 0.0, 0.0);
-const Vec kY(0.0, 1.0, 0.0);
-const Vec kZ(0.0, 0.0, 1.0);
 
 /// The whole box leans towards the camera, which looks into it from the front.
 const Frame& tilt() {
@@ -33,11 +30,6 @@ glm::mat4 tilted() {
 
 double wave_at(double share, double turns) {
   return portable_sin(2.0 * kPi * turns * share);
-}
-
-Mesh smooth(Mesh mesh) {
-  smooth_normals(mesh);
-  return mesh;
 }
 
 void put(Scene& scene, const std::string& name, Mesh mesh, std::vector<Material> materials,

@@ -13,6 +13,10 @@ namespace encore::scene::samples {
 
 using Vec = glm::dvec3;
 
+inline constexpr Vec kX(1.0, 0.0, 0.0);
+inline constexpr Vec kY(0.0, 1.0, 0.0);
+inline constexpr Vec kZ(0.0, 0.0, 1.0);
+
 inline double dot(const Vec& a, const Vec& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }

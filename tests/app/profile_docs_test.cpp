@@ -2,14 +2,17 @@
 #include "energy/session_columns.h"
 #include "energy/session_toml.h"
 #include "tests/app/profile_fakes.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
-#include <sstream>
 
 namespace encore::app {
 namespace {
+
+using test::TemporaryFolder;
 
 /// The names in the first column of the table below a heading: rows that begin with "| `name` |".
 std::vector<std::string> documented(const std::string& heading) {
@@ -37,7 +40,7 @@ TEST(SessionFormat, DocumentsEveryKeyOfTheSessionFile) {
   energy::SessionInfo info;
   info.machine = {"cpu", 2, 1, 3, "os", "kernel", "governor", true, "compiler", "type"};
   info.settings = {{"memory", "pool"}};
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   energy::write_session_toml(folder.path() / "session.toml", info);
   const std::vector<std::string> names = documented("session.toml");
   const auto knows = [&](const std::string& name) {

@@ -3,11 +3,7 @@
 #include "accel/brute_force.h"
 #include "app/workloads.h"
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <memory>
-#include <string>
 
 namespace encore::app {
 
@@ -135,26 +131,5 @@ inline scene::Motion resting() {
   motion.keys = {{0.0F, {}}, {2.0F, {}}};
   return motion;
 }
-
-/// A folder that is gone when the test is over.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    static int number = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("encore-profile-" + std::to_string(::getpid()) + "-" + std::to_string(++number));
-    std::filesystem::create_directories(path_);
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace encore::app

@@ -6,6 +6,7 @@
 #include "energy/session_csv.h"
 #include "tests/app/profile_fakes.h"
 #include "tests/app/profile_json_check.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +16,8 @@
 
 namespace encore::app {
 namespace {
+
+using test::TemporaryFolder;
 
 /// Sets an environment variable for the length of a test.
 class Environment {
@@ -48,7 +51,7 @@ class Profile : public testing::Test {
   }
   energy::Session session() { return energy::read_session(options.out); }
 
-  ScratchFolder folder;
+  TemporaryFolder folder;
   ProfileOptions options;
   FakeTools fakes;
   std::atomic<bool> stop{false};
@@ -192,7 +195,7 @@ TEST_F(Profile, WrongWordsAreUsageErrorsBeforeAnythingIsWritten) {
 
 /// The whole command, with the program's own structures and renderer.
 TEST(ProfileCommand, MeasuresASampleSceneFromTheCommandLine) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string out = (folder.path() / "s").string();
   CLI::App app;
   ExitCode code = ExitCode::failure;
@@ -209,7 +212,7 @@ TEST(ProfileCommand, MeasuresASampleSceneFromTheCommandLine) {
 }
 
 TEST(ProfileCommand, MeasuresAMovingSceneUnderEveryPolicy) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string out = (folder.path() / "s").string();
   CLI::App app;
   ExitCode code = ExitCode::failure;
@@ -231,7 +234,7 @@ TEST(ProfileCommand, MeasuresAMovingSceneUnderEveryPolicy) {
 }
 
 TEST(ProfileCommand, InterruptGivesItsExitCode) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   CLI::App app;
   ExitCode code = ExitCode::ok;
   add_profile_command(app, code);

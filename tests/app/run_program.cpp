@@ -1,5 +1,7 @@
 #include "run_program.h"
 
+#include "tests/support/files.h"
+
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -7,23 +9,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace encore::app {
 
-namespace {
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-}  // namespace
-
 ProgramResult run_encore(const std::vector<std::string>& arguments) {
-  std::string pattern = (std::filesystem::temp_directory_path() / "encore-test-XXXXXX").string();
-  const std::filesystem::path folder = mkdtemp(pattern.data());
+  const test::TemporaryFolder scratch;
+  const std::filesystem::path& folder = scratch.path();
   const std::string out = folder / "out.txt";
   const std::string err = folder / "err.txt";
 
@@ -43,10 +34,8 @@ ProgramResult run_encore(const std::vector<std::string>& arguments) {
   }
   int status = 0;
   waitpid(child, &status, 0);
-  ProgramResult result{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-                       read_file(out), read_file(err)};
-  std::filesystem::remove_all(folder);
-  return result;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), test::contents_of(out),
+          test::contents_of(err)};
 }
 
 }  // namespace encore::app

@@ -6,7 +6,6 @@
 #include "scene/triangles.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <filesystem>
 

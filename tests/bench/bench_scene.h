@@ -2,7 +2,6 @@
 
 #include "accel/acceleration_structure.h"
 
-#include <span>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,6 @@
 #include "scene/ray.h"
 #include "scene/triangle.h"
 
-#include <cstddef>
 #include <memory>
 #include <span>
 

@@ -10,8 +10,6 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
-#include <optional>
-#include <stdexcept>
 
 #if defined(ENCORE_HAVE_EMBREE)
 #include "tests/bench/embree_reference.h"

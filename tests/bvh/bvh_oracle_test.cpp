@@ -4,6 +4,7 @@
 #include "accel/test_rays.h"
 #include "accel/verify.h"
 #include "test_scenes.h"
+#include "tests/support/oracle_hits.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -18,20 +19,9 @@ void expect_brute_force_hits(const Triangles& triangles, std::size_t rays_a_kind
                              std::uint64_t seed) {
   Bvh bvh(StructureKind::bvh_median, BvhSettings{}, MemoryMode::pool);
   bvh.build(triangles);
-  BruteForce brute;
-  brute.build(triangles);
   for (const RayKind kind : all_ray_kinds()) {
     const auto rays = test_rays(kind, rays_a_kind, seed, triangles, bvh);
-    const HitComparison result = compare_hits(bvh, brute, rays);
-    const Ray& r = result.first_ray;
-    EXPECT_EQ(result.mismatches(), 0U)
-        << to_string(kind) << " missed " << result.missed << " invented " << result.invented
-        << " triangle " << result.wrong_triangle << " distance " << result.wrong_distance
-        << " occlusion " << result.wrong_occlusion << std::hexfloat << "; first: origin "
-        << r.origin.x << ' ' << r.origin.y << ' ' << r.origin.z << " direction " << r.direction.x
-        << ' ' << r.direction.y << ' ' << r.direction.z << " expected "
-        << result.first_expected.triangle << " at " << result.first_expected.t << " found "
-        << result.first_found.triangle << " at " << result.first_found.t;
+    encore::test::expect_oracle_hits(bvh, triangles, rays, std::string(to_string(kind)));
   }
 }
 

@@ -1,47 +1,25 @@
 #pragma once
 
 #include "scene/triangle.h"
+#include "tests/support/random_triangles.h"
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
 
 namespace encore::accel::test {
 
+using encore::test::Random;
+using encore::test::scaled;
 using glm::vec3;
 using scene::make_triangle;
 using scene::Triangle;
 using Triangles = std::vector<Triangle>;
 
-/// Seeded numbers that are the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  float between(float low, float high) {
-    return low + (high - low) * (static_cast<float>(engine_() >> 8) * 0x1p-24F);
-  }
-  vec3 point(float half) {
-    const float x = between(-half, half);
-    const float y = between(-half, half);
-    return {x, y, between(-half, half)};
-  }
-
- private:
-  std::mt19937 engine_;
-};
-
+/// Triangles of about `size` in the cube [-10, 10]^3.
 inline Triangles soup(std::size_t count, float size, std::uint32_t seed) {
-  Random random(seed);
-  Triangles triangles;
-  for (std::size_t i = 0; i < count; ++i) {
-    const vec3 at = random.point(10.0F);
-    const vec3 a = at + random.point(size);
-    const vec3 b = at + random.point(size);
-    triangles.push_back(make_triangle(a, b, at + random.point(size)));
-  }
-  return triangles;
+  return encore::test::triangle_soup(count, size, 10.0F, seed);
 }
 
 inline Triangles identical(std::size_t count) {
@@ -110,15 +88,6 @@ inline Triangles thrice(Triangles base) {
   const Triangles once = base;
   for (int i = 0; i < 2; ++i) base.insert(base.end(), once.begin(), once.end());
   return base;
-}
-
-inline Triangles scaled(Triangles triangles, float factor) {
-  for (Triangle& t : triangles) {
-    t.v0 *= factor;
-    t.v1 *= factor;
-    t.v2 *= factor;
-  }
-  return triangles;
 }
 
 struct NamedTriangles {

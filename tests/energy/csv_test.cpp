@@ -1,18 +1,20 @@
 #include "energy/csv.h"
 
 #include "energy/session.h"
-#include "tests/energy/temporary_folder.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <locale>
 #include <random>
 
 namespace encore::energy {
 namespace {
+
+using test::contents_of;
+using test::TemporaryFolder;
 
 TEST(Csv, FieldsAreQuotedOnlyWhereTheyNeedIt) {
   EXPECT_EQ(csv_field("plain text"), "plain text");
@@ -33,9 +35,7 @@ TEST(Csv, AnyFieldsSurviveWritingAndReading) {
     for (const CsvRecord& record : records) writer.write(record);
     EXPECT_THROW(writer.write({"too", "few"}), std::logic_error);
   }
-  std::ifstream file(folder.path() / "t.csv", std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const auto read = parse_csv(text);
+  const auto read = parse_csv(contents_of(folder.path() / "t.csv"));
   ASSERT_EQ(read.size(), 4U);
   EXPECT_EQ(read[0], header);
   for (std::size_t i = 0; i < records.size(); ++i) EXPECT_EQ(read[i + 1], records[i]);

@@ -1,11 +1,13 @@
 #include "energy/machine.h"
 
-#include "tests/energy/temporary_folder.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
 namespace encore::energy {
 namespace {
+
+using test::TemporaryFolder;
 
 /// A laptop of 2007: one package, two cores, no hypervisor, a governor.
 void write_laptop(const TemporaryFolder& root) {

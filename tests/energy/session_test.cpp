@@ -1,5 +1,5 @@
 #include "energy/session_csv.h"
-#include "tests/energy/temporary_folder.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -10,6 +10,9 @@
 
 namespace encore::energy {
 namespace {
+
+using test::contents_of;
+using test::TemporaryFolder;
 
 SessionColumns test_columns() {
   return {{"scene", "structure"}, {"nodes", "sah_cost"}};
@@ -97,11 +100,6 @@ void expect_test_session(const std::filesystem::path& folder) {
   expect_equal_times(session.summaries[0].median, summary.median);
 }
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(Session, ReadsBackWhatWasWritten) {
   const TemporaryFolder folder;
   write_test_session(folder.path());
@@ -123,14 +121,14 @@ TEST(Session, IsTheSameInEveryLocale) {
   expect_test_session(german.path());
   std::locale::global(before);
   for (const char* file : {"session.toml", "frames.csv", "summary.csv", "samples.csv"}) {
-    EXPECT_EQ(text_of(plain.path() / file), text_of(german.path() / file)) << file;
+    EXPECT_EQ(contents_of(plain.path() / file), contents_of(german.path() / file)) << file;
   }
 }
 
 TEST(Session, MissingIsEmptyOrUnavailableButNeverZero) {
   const TemporaryFolder folder;
   write_test_session(folder.path());
-  const auto frames = parse_csv(text_of(folder.path() / "frames.csv"));
+  const auto frames = parse_csv(contents_of(folder.path() / "frames.csv"));
   const auto cell = [&](std::string_view column) {
     for (std::size_t i = 0; i < frames[0].size(); ++i) {
       if (frames[0][i] == column) return frames[1][i];
@@ -185,7 +183,7 @@ TEST(Session, WhatIsWrongIsToldWithItsPlace) {
     }
     return std::string("no error");
   };
-  const std::string frames = text_of(folder.path() / "frames.csv");
+  const std::string frames = contents_of(folder.path() / "frames.csv");
   folder.write("frames.csv", frames + "0.5,a,b,many,,,,,,,,,,,unavailable\n");
   EXPECT_NE(message().find("frames.csv, row 3: column operations holds 'many'"), std::string::npos)
       << message();

@@ -62,8 +62,8 @@ TEST(GridLayout, CellOfAgreesWithTheStoredPlanesOnEveryFloatBesideThem) {
   };
   for (int i = 0; i < 200; ++i) {
     const float scale = std::ldexp(1.0F, static_cast<int>(random.below(120)) - 60);
-    const vec3 low = random.in_box(scale);
-    check(box(low, low + (random.in_box(0.5F) + vec3(0.5F)) * scale), 1 + random.below(200));
+    const vec3 low = random.point(scale);
+    check(box(low, low + (random.point(0.5F) + vec3(0.5F)) * scale), 1 + random.below(200));
   }
   // Extents of a few floats, astride zero, of the whole range of floats, and of denormals.
   check(box(vec3(1.0F), vec3(1.0F + 0x1p-22F)), 64);

@@ -1,66 +1,27 @@
 // Every ray gets from both grids the hit that testing all triangles gives, bit for bit.
-#include "accel/brute_force.h"
 #include "accel/grid/grid.h"
 #include "tests/grid/random_scenes.h"
+#include "tests/support/oracle_hits.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace encore::accel::test {
 namespace {
 
-bool same(const Hit& a, const Hit& b) {
-  return a.triangle == b.triangle &&
-         std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t) &&
-         std::bit_cast<std::uint32_t>(a.u) == std::bit_cast<std::uint32_t>(b.u) &&
-         std::bit_cast<std::uint32_t>(a.v) == std::bit_cast<std::uint32_t>(b.v);
-}
-
-std::string describe(const Ray& ray, const Hit& expected, const Hit& actual) {
-  std::ostringstream out;
-  out << std::hexfloat << "origin " << ray.origin.x << ' ' << ray.origin.y << ' ' << ray.origin.z
-      << " direction " << ray.direction.x << ' ' << ray.direction.y << ' ' << ray.direction.z
-      << std::defaultfloat << " expected t " << expected.t << " triangle " << expected.triangle
-      << " got t " << actual.t << " triangle " << actual.triangle;
-  return out.str();
-}
-
 // Compares both kinds with brute force and returns how many rays hit.
 std::size_t expect_oracle_hits(const std::vector<Triangle>& triangles, const std::vector<Ray>& rays,
                                GridSettings settings = {}) {
-  BruteForce brute;
-  brute.build(triangles);
-  std::vector<Hit> expected(rays.size());
-  brute.intersect(rays, expected);
-
+  std::size_t hits = 0;
   for (const StructureKind kind : {StructureKind::grid_exact, StructureKind::grid_box}) {
     Grid grid(kind, settings, MemoryMode::pool);
     grid.build(triangles);
-    std::vector<Hit> actual(rays.size());
-    std::vector<Hit> counted(rays.size());
-    std::vector<TraceCounters> counters(rays.size());
-    std::vector<std::uint8_t> blocked(rays.size());
-    grid.intersect(rays, actual);
-    grid.intersect_counted(rays, counted, counters);
-    grid.occluded(rays, blocked);
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const bool right = same(actual[i], expected[i]) && same(counted[i], expected[i]) &&
-                         (blocked[i] != 0) == expected[i].found();
-      if (!right && wrong++ < 3) {
-        ADD_FAILURE() << grid.name() << ' ' << describe(rays[i], expected[i], actual[i]);
-      }
-    }
-    EXPECT_EQ(wrong, 0U) << "of " << rays.size();
+    hits = encore::test::expect_oracle_hits(grid, triangles, rays, std::string(grid.name()));
   }
-  return static_cast<std::size_t>(
-      std::count_if(expected.begin(), expected.end(), [](const Hit& h) { return h.found(); }));
+  return hits;
 }
 
 std::vector<Ray> mixed_rays(const std::vector<Triangle>& triangles, std::size_t count,
@@ -228,7 +189,7 @@ TEST(GridOracle, LimitedAndSurfaceStartingRays) {
     limited.push_back(ray);
     // A secondary ray from the surface.
     limited.push_back(Ray{.origin = rays[i].origin + rays[i].direction * hits[i].t,
-                          .direction = random.in_box(1.0F)});
+                          .direction = random.point(1.0F)});
   }
   EXPECT_GT(expect_oracle_hits(triangles, limited), 1000U);
 }

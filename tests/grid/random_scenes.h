@@ -2,63 +2,28 @@
 
 #include "scene/ray.h"
 #include "scene/triangle.h"
+#include "tests/support/random_triangles.h"
 
 #include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <vector>
 
 namespace encore::accel::test {
 
+using encore::test::bounds_of_all;
+using encore::test::Random;
+using encore::test::scaled;
 using glm::vec3;
 using scene::Hit;
 using scene::Ray;
 using scene::Triangle;
 
-/// Seeded random numbers that are the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  /// In [0, 1), a multiple of 2^-24.
-  float unit() { return static_cast<float>(engine_() >> 8) * 0x1p-24F; }
-  float between(float low, float high) { return low + (high - low) * unit(); }
-  std::uint32_t below(std::uint32_t n) { return engine_() % n; }
-  vec3 in_box(float half) {
-    const float x = between(-half, half);
-    const float y = between(-half, half);
-    const float z = between(-half, half);
-    return {x, y, z};
-  }
-
- private:
-  std::mt19937 engine_;
-};
-
 /// Triangles of about `size` in the cube [-1, 1]^3.
 inline std::vector<Triangle> soup(std::size_t count, float size, std::uint32_t seed) {
-  Random random(seed);
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i < count; ++i) {
-    const vec3 center = random.in_box(1.0F);
-    const vec3 a = center + random.in_box(size);
-    const vec3 b = center + random.in_box(size);
-    const vec3 c = center + random.in_box(size);
-    triangles.push_back(scene::make_triangle(a, b, c));
-  }
-  return triangles;
-}
-
-inline std::vector<Triangle> scaled(std::vector<Triangle> triangles, const vec3& scale,
-                                    const vec3& shift = vec3(0.0F)) {
-  for (Triangle& t : triangles) {
-    t.v0 = t.v0 * scale + shift;
-    t.v1 = t.v1 * scale + shift;
-    t.v2 = t.v2 * scale + shift;
-  }
-  return triangles;
+  return encore::test::triangle_soup(count, size, 1.0F, seed);
 }
 
 /// A height field over [-1, 1]^2 with 2 * n * n triangles that share their vertices exactly.
@@ -83,12 +48,6 @@ inline std::vector<Triangle> terrain(int n, float height, std::uint32_t seed) {
   return triangles;
 }
 
-inline scene::Bounds bounds_of_all(const std::vector<Triangle>& triangles) {
-  scene::Bounds bounds;
-  for (const Triangle& t : triangles) bounds.extend(scene::bounds_of(t));
-  return bounds;
-}
-
 /// Rays that start `distance` (in box sizes) from the middle and aim into the box.
 inline std::vector<Ray> rays_at(const scene::Bounds& box, float distance, std::size_t count,
                                 std::uint32_t seed) {
@@ -97,8 +56,8 @@ inline std::vector<Ray> rays_at(const scene::Bounds& box, float distance, std::s
   const vec3 half = box.size() * 0.5F;
   const float reach = std::max(half.x, std::max(half.y, half.z));
   while (rays.size() < count) {
-    const vec3 origin = box.center() + random.in_box(1.0F) * (reach * distance);
-    const vec3 target = box.center() + random.in_box(1.0F) * half;
+    const vec3 origin = box.center() + random.point(1.0F) * (reach * distance);
+    const vec3 target = box.center() + random.point(1.0F) * half;
     const vec3 direction = target - origin;
     if (direction == vec3(0.0F)) continue;
     rays.push_back(Ray{.origin = origin, .direction = direction});

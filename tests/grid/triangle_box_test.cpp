@@ -43,10 +43,10 @@ TEST(TriangleBox, AgreesWithClippingAtAnyScale) {
   for (int i = 0; i < 200000; ++i) {
     const float scale = std::ldexp(1.0F, static_cast<int>(random.below(121)) - 60);
     const float size = random.below(2) == 0 ? 0.3F : 3.0F;
-    const vec3 center = random.in_box(1.5F);
-    const vec3 a = center + random.in_box(size);
-    const vec3 b = center + random.in_box(size);
-    const vec3 c = random.below(8) == 0 ? b : center + random.in_box(size);
+    const vec3 center = random.point(1.5F);
+    const vec3 a = center + random.point(size);
+    const vec3 b = center + random.point(size);
+    const vec3 c = random.below(8) == 0 ? b : center + random.point(size);
     const Triangle triangle = scene::make_triangle(a * scale, b * scale, c * scale);
     const scene::Bounds box{vec3(-0.5F, -0.6F, -0.7F) * scale, vec3(0.5F, 0.4F, 0.3F) * scale};
     const bool found = overlaps(triangle, box);
@@ -67,7 +67,7 @@ TEST(TriangleBox, CutsOfATriangleAtACellPlaneLieOnBothSides) {
   Random random(6);
   for (int i = 0; i < 100000; ++i) {
     const vec3 on_plane(0.0F, random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F));
-    const Triangle t = scene::make_triangle(on_plane, random.in_box(2.0F), random.in_box(2.0F));
+    const Triangle t = scene::make_triangle(on_plane, random.point(2.0F), random.point(2.0F));
     ASSERT_TRUE(overlaps(t, {vec3(-1.0F), vec3(0.0F, 1.0F, 1.0F)}));
     ASSERT_TRUE(overlaps(t, {vec3(0.0F, -1.0F, -1.0F), vec3(1.0F)}));
   }

@@ -1,45 +1,21 @@
 #pragma once
 
 #include "scene/triangle.h"
+#include "tests/support/random_triangles.h"
 
-#include <cmath>
 #include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
 
 namespace encore::accel::kd_test {
 
+using encore::test::Random;
+using encore::test::scaled;
 using scene::Triangle;
 
-/// Random numbers that are the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  float between(float low, float high) {
-    return low + (high - low) * (static_cast<float>(engine_() >> 8) * 0x1p-24F);
-  }
-  std::uint32_t below(std::uint32_t count) { return engine_() % count; }
-  glm::vec3 point(float low, float high) {
-    const float x = between(low, high);
-    const float y = between(low, high);
-    return {x, y, between(low, high)};
-  }
-
- private:
-  std::mt19937 engine_;
-};
-
-/// Triangles of about `size` spread over a cube of side 2.
+/// Triangles of about `size` in the cube [-1, 1]^3.
 inline std::vector<Triangle> soup(std::size_t count, float size, std::uint32_t seed) {
-  Random random(seed);
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3 at = random.point(-1.0F, 1.0F);
-    triangles.push_back(
-        scene::make_triangle(at, at + random.point(-size, size), at + random.point(-size, size)));
-  }
-  return triangles;
+  return encore::test::triangle_soup(count, size, 1.0F, seed);
 }
 
 /// A wavy height field of 2 n^2 triangles whose vertices lie on a regular lattice in x and y, so
@@ -102,7 +78,7 @@ inline std::vector<NamedScene> hostile_scenes() {
   NamedScene centred{"same-centre", {}};
   Random random(6);
   for (int i = 0; i < 400; ++i) {
-    const glm::vec3 a = random.point(-1.0F, 1.0F);
+    const glm::vec3 a = random.point(1.0F);
     centred.triangles.push_back(
         scene::make_triangle(a, {a.y, a.z, a.x}, -a - glm::vec3(a.y, a.z, a.x)));
   }
@@ -110,16 +86,16 @@ inline std::vector<NamedScene> hostile_scenes() {
 
   NamedScene needles{"needles", {}};
   for (int i = 0; i < 600; ++i) {
-    const glm::vec3 a = random.point(-1.0F, 1.0F);
-    const glm::vec3 b = random.point(-1.0F, 1.0F);
-    needles.triangles.push_back(scene::make_triangle(a, b, b + random.point(-1e-5F, 1e-5F)));
+    const glm::vec3 a = random.point(1.0F);
+    const glm::vec3 b = random.point(1.0F);
+    needles.triangles.push_back(scene::make_triangle(a, b, b + random.point(1e-5F)));
   }
   scenes.push_back(needles);
 
   NamedScene degenerate{"degenerate", soup(100, 0.3F, 7)};
   for (int i = 0; i < 100; ++i) {
-    const glm::vec3 a = random.point(-1.0F, 1.0F);
-    const glm::vec3 b = random.point(-1.0F, 1.0F);
+    const glm::vec3 a = random.point(1.0F);
+    const glm::vec3 b = random.point(1.0F);
     degenerate.triangles.push_back(scene::make_triangle(a, a, a));
     degenerate.triangles.push_back(scene::make_triangle(a, b, a));
   }
@@ -136,14 +112,6 @@ inline std::vector<NamedScene> hostile_scenes() {
   uneven.triangles.push_back(scene::make_triangle({-10, -10, -9}, {10, -10, -9}, {0, 10, 9}));
   scenes.push_back(uneven);
   return scenes;
-}
-
-inline void scale_by(std::vector<Triangle>& triangles, float factor) {
-  for (Triangle& t : triangles) {
-    t.v0 *= factor;
-    t.v1 *= factor;
-    t.v2 *= factor;
-  }
 }
 
 }  // namespace encore::accel::kd_test

@@ -110,8 +110,7 @@ TEST(KdMedian, PassesOverAnAxisThatCannotBeSplit) {
 
 TEST(KdMedian, GivesUpAfterFiveBadSplitsInheritedDownThePath) {
   // A cluster so small that halving the box does not divide it before the retries run out.
-  std::vector<Triangle> cluster = kd_test::soup(300, 0.5F, 24);
-  kd_test::scale_by(cluster, 0x1p-20F);
+  std::vector<Triangle> cluster = kd_test::scaled(kd_test::soup(300, 0.5F, 24), 0x1p-20F);
   cluster.push_back(scene::make_triangle({64, 64, 64}, {63, 64, 64}, {64, 63, 63}));
   for (const int retries : {0, 1, 5, 9}) {
     KdTreeSettings settings;

@@ -1,21 +1,21 @@
 // A kd-tree returns the same hit as brute force, bit for bit: on hostile geometry, at every scale,
 // for rays through its own planes, plane crossings and node corners.
-#include "accel/brute_force.h"
 #include "accel/kdtree/kdtree.h"
 #include "kd_scenes.h"
+#include "tests/support/oracle_hits.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <string>
 #include <vector>
 
 namespace encore::accel {
 namespace {
 
+using encore::test::bounds_of_all;
+using encore::test::expect_oracle_hits;
 using kd_test::Random;
 
 class KdTreeHits : public testing::TestWithParam<StructureKind> {};
@@ -25,44 +25,6 @@ INSTANTIATE_TEST_SUITE_P(Kinds, KdTreeHits,
                            return kind.param == StructureKind::kd_sah ? "sah" : "median";
                          });
 
-std::string print(const Ray& r) {
-  char text[256];
-  std::snprintf(text, sizeof text, "ray %a %a %a -> %a %a %a in %a..%a", r.origin.x, r.origin.y,
-                r.origin.z, r.direction.x, r.direction.y, r.direction.z, r.t_min, r.t_max);
-  return text;
-}
-
-/// Compares all three calls with the oracle; returns the number of hits.
-std::size_t expect_same(const AccelerationStructure& tree, std::span<const Triangle> triangles,
-                        std::span<const Ray> rays, const std::string& what) {
-  BruteForce brute;
-  brute.build(triangles);
-  std::vector<Hit> expected(rays.size());
-  std::vector<Hit> found(rays.size());
-  std::vector<Hit> counted(rays.size());
-  std::vector<TraceCounters> counters(rays.size());
-  std::vector<std::uint8_t> blocked(rays.size());
-  brute.intersect(rays, expected);
-  tree.intersect(rays, found);
-  tree.intersect_counted(rays, counted, counters);
-  tree.occluded(rays, blocked);
-  std::size_t hits = 0;
-  std::size_t wrong = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    hits += expected[i].found() ? 1 : 0;
-    const bool same = std::memcmp(&expected[i], &found[i], sizeof(Hit)) == 0 &&
-                      std::memcmp(&expected[i], &counted[i], sizeof(Hit)) == 0 &&
-                      (blocked[i] != 0) == expected[i].found();
-    if (same || ++wrong > 3) continue;
-    ADD_FAILURE() << what << ": " << print(rays[i]) << " expected " << expected[i].triangle
-                  << " at " << expected[i].t << ", found " << found[i].triangle << " at "
-                  << found[i].t << ", counted " << counted[i].triangle << ", blocked "
-                  << int(blocked[i]);
-  }
-  EXPECT_EQ(wrong, 0U) << what;
-  return hits;
-}
-
 std::vector<NodeView> nodes_of(const AccelerationStructure& tree) {
   std::vector<NodeView> nodes;
   tree.visit([&](const NodeView& node) {
@@ -70,12 +32,6 @@ std::vector<NodeView> nodes_of(const AccelerationStructure& tree) {
     return true;
   });
   return nodes;
-}
-
-Bounds bounds_of_all(std::span<const Triangle> triangles) {
-  Bounds bounds;
-  for (const Triangle& t : triangles) bounds.extend(scene::bounds_of(t));
-  return bounds;
 }
 
 glm::vec3 inside(Random& random, const Bounds& b) {
@@ -102,7 +58,7 @@ std::vector<Ray> mixed_rays(std::span<const Triangle> triangles, std::size_t cou
     const glm::vec3 aim = random.below(2) ? inside(random, box) : vertex_of(random, triangles);
     glm::vec3 origin = random.below(3) ? inside(random, box) : vertex_of(random, triangles);
     const float reach[4] = {0.0F, 2.0F, 100.0F, 1e6F};
-    origin += random.point(-1.0F, 1.0F) * (radius * reach[random.below(4)]);
+    origin += random.point(1.0F) * (radius * reach[random.below(4)]);
     Ray ray{origin, 0.0F, aim - origin};
     ray.direction /= std::max({std::fabs(ray.direction.x), std::fabs(ray.direction.y),
                                std::fabs(ray.direction.z), radius * 1e-6F});
@@ -137,7 +93,7 @@ std::vector<Ray> plane_rays(const AccelerationStructure& tree, std::span<const T
     const int axis = node.split_axis >= 0 ? node.split_axis : static_cast<int>(random.below(3));
     if (node.split_axis >= 0) corner[axis] = node.split_position;
     const glm::vec3 other = random.below(2) ? inside(random, box) : vertex_of(random, triangles);
-    Ray ray{other, 0.0F, random.point(-1.0F, 1.0F)};
+    Ray ray{other, 0.0F, random.point(1.0F)};
     switch (random.below(5)) {
       case 0:  // inside the plane
         ray.origin[axis] = corner[axis];
@@ -173,7 +129,7 @@ TEST_P(KdTreeHits, AgreesWithBruteForceOnHostileGeometry) {
     KdTree tree(GetParam(), {}, MemoryMode::pool);
     tree.build(scene.triangles);
     const auto rays = mixed_rays(scene.triangles, 4000, 11);
-    const std::size_t hits = expect_same(tree, scene.triangles, rays, scene.name);
+    const std::size_t hits = expect_oracle_hits(tree, scene.triangles, rays, scene.name);
     if (scene.name != "one") {
       EXPECT_GT(hits, 50U) << scene.name;
     }
@@ -185,7 +141,7 @@ TEST_P(KdTreeHits, AgreesForRaysThroughItsOwnPlanesAndCorners) {
     KdTree tree(GetParam(), {}, MemoryMode::pool);
     tree.build(scene.triangles);
     const auto rays = plane_rays(tree, scene.triangles, 4000, 12);
-    expect_same(tree, scene.triangles, rays, scene.name);
+    expect_oracle_hits(tree, scene.triangles, rays, scene.name);
   }
 }
 
@@ -193,19 +149,19 @@ TEST_P(KdTreeHits, AgreesForABigBatchOfRays) {
   const std::vector<Triangle> triangles = kd_test::soup(300, 0.35F, 13);
   KdTree tree(GetParam(), {}, MemoryMode::fresh);
   tree.build(triangles);
-  EXPECT_GT(expect_same(tree, triangles, mixed_rays(triangles, 40000, 14), "soup"), 20000U);
+  EXPECT_GT(expect_oracle_hits(tree, triangles, mixed_rays(triangles, 40000, 14), "soup"), 20000U);
 }
 
 TEST_P(KdTreeHits, AgreesAtEveryScale) {
   for (const float scale : {1e-18F, 1e-9F, 1e9F, 1e15F}) {
     for (kd_test::NamedScene& scene : kd_test::hostile_scenes()) {
       if (scene.name != "soup" && scene.name != "boxes" && scene.name != "uneven") continue;
-      kd_test::scale_by(scene.triangles, scale);
+      scene.triangles = kd_test::scaled(scene.triangles, scale);
       KdTree tree(GetParam(), {}, MemoryMode::pool);
       tree.build(scene.triangles);
       EXPECT_GT(tree.stats().nodes, 50U);
       const std::string what = scene.name + " at " + std::to_string(std::log10(scale));
-      expect_same(tree, scene.triangles, mixed_rays(scene.triangles, 3000, 15), what);
+      expect_oracle_hits(tree, scene.triangles, mixed_rays(scene.triangles, 3000, 15), what);
     }
   }
 }
@@ -216,9 +172,8 @@ TEST_P(KdTreeHits, BuildsTheSameTreeAtEveryPowerOfTwo) {
   tree.build(triangles);
   const BuildStats plain = tree.stats();
   for (const float scale : {0x1p-60F, 0x1p60F}) {
-    std::vector<Triangle> scaled = triangles;
-    kd_test::scale_by(scaled, scale);
-    tree.build(scaled);
+    const std::vector<Triangle> resized = kd_test::scaled(triangles, scale);
+    tree.build(resized);
     EXPECT_EQ(tree.stats().nodes, plain.nodes);
     EXPECT_EQ(tree.stats().references, plain.references);
     EXPECT_DOUBLE_EQ(tree.stats().sah_cost, plain.sah_cost);

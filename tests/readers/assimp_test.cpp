@@ -8,11 +8,6 @@
 namespace encore::scene {
 namespace {
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 TEST(AssimpReader, Reads3dsStlAndOff) {
   const Model square = read_model(fixture("square.3ds"));
   EXPECT_EQ(square.mesh.triangles.size(), 2U);
@@ -36,14 +31,14 @@ TEST(AssimpReader, AppliesNodeTransformsAndKeepsFacingUnderMirrors) {
 }
 
 TEST(AssimpReader, ReadsTheSameFromMemory) {
-  const std::string bytes = content_of(fixture("square.3ds"));
+  const std::string bytes = contents_of(fixture("square.3ds"));
   const Model model = read_with_assimp(std::as_bytes(std::span(bytes)), ".3DS", "memory");
   EXPECT_EQ(model.mesh.triangles.size(), 2U);
 }
 
 TEST(AssimpReader, EveryTruncationLoadsOrIsAnInputError) {
   for (const char* name : {"square.3ds", "triangle.stl", "arrow.off", "mirrored.gltf"}) {
-    const std::string bytes = content_of(fixture(name));
+    const std::string bytes = contents_of(fixture(name));
     const std::string extension = std::filesystem::path(name).extension();
     for (std::size_t size = 0; size < bytes.size(); size += 7) {
       try {
@@ -80,8 +75,8 @@ TEST(ReadModel, ContentDecidesOverTheExtension) {
         std::pair{"square.3ds", "a.ply"}, std::pair{"triangle.stl", "a.3ds"},
         std::pair{"arrow.off", "a.obj"}, std::pair{"mirrored.gltf", "a.stl"},
         std::pair{"tetrahedron.obj", "a.model"}}) {
-    const TemporaryFile file(wrong, content_of(fixture(good)));
-    const Model model = read_model(file.path);
+    const TemporaryFolder folder;
+    const Model model = read_model(folder.write(wrong, contents_of(fixture(good))));
     EXPECT_FALSE(model.mesh.triangles.empty()) << good;
     EXPECT_TRUE(warns(model, "but holds")) << good;
   }
@@ -91,12 +86,13 @@ TEST(ReadModel, FilesThatCannotBeReadSayWhy) {
   EXPECT_TRUE(contains(error_of([] { read_model("no/such.obj"); }), "no/such.obj: no such file"));
   EXPECT_TRUE(contains(error_of([] { read_model(fixture("")); }), "is a folder"));
   EXPECT_TRUE(contains(error_of([] { read_model("/dev/zero"); }), "is no regular file"));
-  const TemporaryFile empty("empty.ply", "");
-  EXPECT_TRUE(contains(error_of([&] { read_model(empty.path); }), "empty.ply: the file is empty"));
-  const TemporaryFile text("notes.txt", "v is the third last letter but four\n");
-  EXPECT_TRUE(contains(error_of([&] { read_model(text.path); }), "known are .obj .ply .3ds"));
-  const TemporaryFile gz("a.obj.gz", "\x1F\x8B whatever");
-  EXPECT_TRUE(contains(error_of([&] { read_model(gz.path); }), "unpack it first"));
+  const TemporaryFolder folder;
+  const auto empty = folder.write("empty.ply", "");
+  EXPECT_TRUE(contains(error_of([&] { read_model(empty); }), "empty.ply: the file is empty"));
+  const auto text = folder.write("notes.txt", "v is the third last letter but four\n");
+  EXPECT_TRUE(contains(error_of([&] { read_model(text); }), "known are .obj .ply .3ds"));
+  const auto gz = folder.write("a.obj.gz", "\x1F\x8B whatever");
+  EXPECT_TRUE(contains(error_of([&] { read_model(gz); }), "unpack it first"));
 }
 
 using Outcome = ChildResult::Outcome;

@@ -158,9 +158,10 @@ TEST(ObjReader, PathsNeedNotBeAscii) {
 }
 
 TEST(ObjReader, MissingMaterialsAreWarnings) {
-  const TemporaryFile file(
+  const TemporaryFolder folder;
+  const auto file = folder.write(
       "m.obj", "mtllib none.mtl\nusemtl a\n" + std::string(kTriangle) + "usemtl b\nf 3 2 1\n");
-  const Model model = read_obj(file.path);
+  const Model model = read_obj(file);
   EXPECT_EQ(model.mesh.triangles.size(), 2U);
   ASSERT_EQ(model.materials.size(), 2U);
   EXPECT_EQ(model.materials[1].diffuse, Material().diffuse);
@@ -169,11 +170,12 @@ TEST(ObjReader, MissingMaterialsAreWarnings) {
 }
 
 TEST(ObjReader, BrokenMaterialFilesAreWarnings) {
-  const TemporaryFile obj("m.obj", "mtllib a b.mtl\nusemtl x\n" + std::string(kTriangle));
+  const TemporaryFolder folder;
+  const auto obj = folder.write("m.obj", "mtllib a b.mtl\nusemtl x\n" + std::string(kTriangle));
   const std::string mtl =
       "newmtl x\nKd red\nKs nan 0 0\nd 7\nNs 1e2147483648\nKa 3 3 3\nKe 0.5\nillum 999999999999\n";
-  std::ofstream(obj.path.parent_path() / "a b.mtl") << mtl << std::string(1, '\0') << "\xFF\n";
-  const Model model = read_obj(obj.path);
+  folder.write("a b.mtl", mtl + std::string(1, '\0') + "\xFF\n");
+  const Model model = read_obj(obj);
   ASSERT_EQ(model.materials.size(), 1U);
   EXPECT_EQ(model.materials[0].diffuse, Material().diffuse);
   EXPECT_EQ(model.materials[0].opacity, 1.0F);
@@ -184,8 +186,9 @@ TEST(ObjReader, BrokenMaterialFilesAreWarnings) {
 }
 
 TEST(ObjReader, MaterialFilesThatAreNoFilesDoNotBlock) {
-  const TemporaryFile file("m.obj", "mtllib /dev/zero\nmtllib .\n" + std::string(kTriangle));
-  EXPECT_TRUE(warns(read_obj(file.path), "not found"));
+  const TemporaryFolder folder;
+  const auto file = folder.write("m.obj", "mtllib /dev/zero\nmtllib .\n" + std::string(kTriangle));
+  EXPECT_TRUE(warns(read_obj(file), "not found"));
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 #include "renderer/image_io.h"
 
 #include "tests/renderer/png.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -20,18 +19,10 @@ using encore::renderer::to_srgb8;
 using encore::renderer::write_png;
 using encore::renderer::test::read_png;
 
-/// A folder of its own that vanishes with it.
 class ImageIo : public testing::Test {
  protected:
-  ImageIo() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::temp_directory_path() /
-             ("encore_" + std::string(test->name()) + "_" + std::to_string(getpid()));
-    fs::create_directories(folder);
-  }
-  ~ImageIo() override { fs::remove_all(folder); }
-
-  fs::path folder;
+  const encore::test::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
 };
 
 Image gradient(int width, int height) {

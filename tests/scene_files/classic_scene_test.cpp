@@ -104,7 +104,7 @@ TEST(ClassicScene, SpheresAreTessellated) {
 }
 
 TEST(ClassicScene, ModelsAreCentredSizedTurnedAndMoved) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("m/t.obj", kTriangleObj);
   const Scene scene = classic("MODEL m/t.obj 10 0 0 4 90 0 0 1\n", folder.path());
   const Bounds b = triangles_at(scene).bounds();
@@ -113,8 +113,8 @@ TEST(ClassicScene, ModelsAreCentredSizedTurnedAndMoved) {
 }
 
 TEST(ClassicScene, ModelsAreFoundByBareNameInTheSearchPath) {
-  const TempFolder folder;
-  const TempFolder models;
+  const TemporaryFolder folder;
+  const TemporaryFolder models;
   models.write("t.obj", kTriangleObj);
   const Scene scene =
       classic("MODEL models/bwl/t.obj 0 0 0 4 0 0 1 0\n", folder.path(), {models.path()});
@@ -122,7 +122,7 @@ TEST(ClassicScene, ModelsAreFoundByBareNameInTheSearchPath) {
 }
 
 TEST(ClassicScene, DynamicIsAFolderOfFrames) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   for (const int i : {1, 2, 3, 4, 10}) {
     const std::string w = std::to_string(i);
     folder.write("models/T/f" + w + ".obj", "v 0 0 0\nv " + w + " 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -188,7 +188,7 @@ TEST(ClassicScene, ErrorsNameFileLineAndCommand) {
   EXPECT_EQ(classic_error("SPHERE 0 0 0 0\n"),
             "old.txt:1: SPHERE: radius times scale must be greater than 0");
   EXPECT_EQ(classic_error("MODEL\n"), "old.txt:1: MODEL: needs a file");
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("t.obj", kTriangleObj);
   EXPECT_EQ(classic_error("MODEL t.obj 0 0 0 -1 0 0 1 0\n", folder.path()),
             "old.txt:1: MODEL: the size must be greater than 0, not -1");
@@ -199,8 +199,8 @@ TEST(ClassicScene, ErrorsNameFileLineAndCommand) {
 }
 
 TEST(ClassicScene, AMissingModelNamesItsLineAndThePathsTried) {
-  const TempFolder folder;
-  const TempFolder search;
+  const TemporaryFolder folder;
+  const TemporaryFolder search;
   const std::string error = error_of([&] {
     classic("*\nMODEL models/gone.ply 0 0 0 1 0 0 1 0\n", folder.path(), {search.path()});
   });
@@ -211,10 +211,10 @@ TEST(ClassicScene, AMissingModelNamesItsLineAndThePathsTried) {
 }
 
 TEST(ClassicScene, AllThirteenOfTheOriginalLoadWithTheirTriangles) {
-  const fs::path models = models_folder();
+  const fs::path models = real_models();
   if (models.empty()) GTEST_SKIP() << "no real models: set ENCORE_MODELS to their folder";
   // The original's names for the scanned models; its one triangle is not among them.
-  const TempFolder links;
+  const TemporaryFolder links;
   const std::map<std::string, std::string> names = {{"dragon3.ply", "dragon_vrip_res3.ply"},
                                                     {"bunny1.ply", "bun_zipper.ply"},
                                                     {"bunny2.ply", "bun_zipper_res2.ply"},
@@ -252,7 +252,7 @@ TEST(ClassicScene, AllThirteenOfTheOriginalLoadWithTheirTriangles) {
 }
 
 TEST(ClassicScene, TheCornellBoxEnclosesItsBunny) {
-  const fs::path models = models_folder();
+  const fs::path models = real_models();
   if (models.empty()) GTEST_SKIP() << "no real models: set ENCORE_MODELS to their folder";
   const Scene scene = load_scene((models / "encore_scenes" / "glassBunnyCornell.txt").string(),
                                  {models / "thesis", models / "thesis" / "encore_cornell"});

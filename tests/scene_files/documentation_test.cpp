@@ -1,7 +1,6 @@
 #include "scene/classic_scene_file.h"
 #include "support.h"
 
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -9,14 +8,10 @@
 namespace encore::scene::test {
 namespace {
 
-std::string whole(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// The fenced blocks of a kind in docs/scene-format.md.
 std::vector<std::string> blocks(const std::string& kind) {
-  std::istringstream lines(whole(fs::path(ENCORE_SOURCE_DIR) / "docs" / "scene-format.md"));
+  std::istringstream lines(
+      encore::test::contents_of(fs::path(ENCORE_SOURCE_DIR) / "docs" / "scene-format.md"));
   std::vector<std::string> result;
   bool inside = false;
   for (std::string line; std::getline(lines, line);) {
@@ -33,7 +28,7 @@ std::vector<std::string> blocks(const std::string& kind) {
 }
 
 /// The model files that the examples name.
-void write_models(const TempFolder& folder) {
+void write_models(const TemporaryFolder& folder) {
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
@@ -46,7 +41,7 @@ void write_models(const TempFolder& folder) {
 }
 
 TEST(Documentation, EveryTomlExampleIsReadWithoutAWarning) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_models(folder);
   const auto examples = blocks("toml");
   EXPECT_GE(examples.size(), 6U);
@@ -59,7 +54,7 @@ TEST(Documentation, EveryTomlExampleIsReadWithoutAWarning) {
 }
 
 TEST(Documentation, EveryClassicExampleIsReadWithoutAWarning) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_models(folder);
   const auto examples = blocks("txt");
   EXPECT_GE(examples.size(), 1U);

@@ -10,7 +10,7 @@ TEST(LoadScene, TakesASampleSceneByName) {
 }
 
 TEST(LoadScene, TakesFilesByTheirExtension) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("m.obj", kTriangleObj);
   const fs::path toml = folder.write("a.toml", "[[model]]\nfile = \"m.obj\"\n");
   const fs::path upper = folder.write("b.TOML", "[[model]]\nfile = \"m.obj\"\n");
@@ -23,7 +23,7 @@ TEST(LoadScene, TakesFilesByTheirExtension) {
 }
 
 TEST(LoadScene, FindsModelsBesideASceneInTheWorkingFolder) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("m.obj", kTriangleObj);
   folder.write("a.toml", "[[model]]\nfile = \"m.obj\"\n");
   const fs::path before = fs::current_path();
@@ -33,7 +33,7 @@ TEST(LoadScene, FindsModelsBesideASceneInTheWorkingFolder) {
 }
 
 TEST(LoadScene, ABareModelIsPlacedAsTheThesisDid) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const fs::path path = folder.write("ein Dreieck – 三角.obj", kTriangleObj);
   const Scene scene = load_scene(path.string());
   const Bounds b = triangles_at(scene).bounds();
@@ -71,18 +71,18 @@ TEST(LoadScene, AnUnknownNameIsAnErrorWithSuggestionAndHint) {
 }
 
 TEST(LoadScene, AFolderIsAnErrorThatSaysSo) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   EXPECT_TRUE(contains(error_of([&] { load_scene(folder.path().string()); }), "is a folder"));
 }
 
 TEST(LoadScene, AHugeTextIsRefused) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const fs::path path = folder.write("huge.toml", std::string((16U << 20U) + 100, '#'));
   EXPECT_TRUE(contains(error_of([&] { load_scene(path.string()); }), "larger than 16 MiB"));
 }
 
 TEST(LoadScene, TheSearchPathServesSceneFilesToo) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("m.obj", kTriangleObj);
   folder.write("a.toml", "[[model]]\nfile = \"m.obj\"\n");
   EXPECT_EQ(load_scene("a.toml", {folder.path()}).instances.size(), 1U);

@@ -3,8 +3,6 @@
 #include "scene/basic_shapes.h"
 #include "support.h"
 
-#include <cmath>
-
 namespace encore::scene::test {
 namespace {
 
@@ -72,7 +70,7 @@ TEST(SceneInfo, AFlatSceneHasACoarseGridOfOneLayerAndNoVolume) {
 }
 
 TEST(SceneInfo, KnowsHowItMoves) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("f/1.obj", kTriangleObj);
   folder.write("f/2.obj", kSquareObj);
   folder.write("f/3.obj", kTriangleObj);

@@ -71,7 +71,7 @@ struct Case {
 class WrongType : public ::testing::TestWithParam<Case> {};
 
 TEST_P(WrongType, IsAnErrorWithLineAndColumn) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("a.obj", kTriangleObj);
   EXPECT_EQ(error_in(GetParam().text, folder.path()), GetParam().error);
 }
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
 class BadValue : public ::testing::TestWithParam<Case> {};
 
 TEST_P(BadValue, IsAnErrorWithLineAndColumn) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("a.obj", kTriangleObj);
   EXPECT_EQ(error_in(GetParam().text, folder.path()), GetParam().error);
 }
@@ -181,8 +181,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"[[model]]\nfile = \"\"\n", "scene.toml:2:8: the name of the model file is empty"}));
 
 TEST(SceneTomlErrors, AMissingModelNamesItsLineAndThePathsTried) {
-  const TempFolder here;
-  const TempFolder there;
+  const TemporaryFolder here;
+  const TemporaryFolder there;
   const std::string error = error_of([&] {
     parse_scene_toml("\n[[model]]\nfile = \"sub/gone.ply\"\n", "s.toml", here.path(),
                      {there.path()});
@@ -194,7 +194,7 @@ TEST(SceneTomlErrors, AMissingModelNamesItsLineAndThePathsTried) {
 }
 
 TEST(SceneTomlErrors, ABrokenModelNamesItsLineToo) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("empty.ply", "");
   const std::string error = error_in("[[model]]\nfile = \"empty.ply\"\n", folder.path());
   EXPECT_TRUE(error.starts_with("scene.toml:2:8: ")) << error;
@@ -202,7 +202,7 @@ TEST(SceneTomlErrors, ABrokenModelNamesItsLineToo) {
 }
 
 TEST(SceneTomlErrors, FoldersAndDevicesAreNoModels) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   fs::create_directory(folder.path() / "d.obj");
   EXPECT_TRUE(contains(error_in("[[model]]\nfile = \"d.obj\"\n", folder.path()), "cannot find"));
   EXPECT_TRUE(
@@ -210,7 +210,7 @@ TEST(SceneTomlErrors, FoldersAndDevicesAreNoModels) {
 }
 
 TEST(SceneTomlErrors, AnEmptyFolderMeansNoFilesAtAll) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const fs::path model = folder.write("a.obj", kTriangleObj);
   const std::string text = "[[model]]\nfile = \"" + model.string() + "\"\n";
   EXPECT_EQ(parse(text, folder.path()).instances.size(), 1U);
@@ -218,7 +218,7 @@ TEST(SceneTomlErrors, AnEmptyFolderMeansNoFilesAtAll) {
 }
 
 TEST(SceneTomlErrors, AFolderOfFramesMustHoldModels) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("f/readme.txt", "nothing");
   const std::string text = "[[model]]\nframes = { folder = \"f\" }\n";
   EXPECT_TRUE(contains(error_in(text, folder.path()), "scene.toml:2:21: the folder"));

@@ -1,7 +1,6 @@
 #include "support.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace encore::scene::test {
@@ -81,7 +80,7 @@ reflectivity = 0.25
 }
 
 TEST(SceneToml, OneMaterialCoversAllOfAModelsOwn) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("two.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
   folder.write("two.obj",
                "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
@@ -100,7 +99,7 @@ TEST(SceneToml, OneMaterialCoversAllOfAModelsOwn) {
 }
 
 TEST(SceneToml, FitComesBeforeScaleRotateAndTranslate) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("t.obj", kTriangleObj);  // from (0,0,0) to (2,1,0)
   const Scene scene = parse(R"([[model]]
 file = "t.obj"
@@ -174,7 +173,7 @@ frequency = 0.25
 }
 
 TEST(SceneToml, FramesOfAFolderComeInTheOrderOfTheirNumbers) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   for (const int i : {1, 2, 9, 10, 11}) {
     const std::string text = "v 0 0 0\nv " + std::to_string(i) + " 0 0\nv 0 1 0\nf 1 2 3\n";
     folder.write("walk/frame" + std::to_string(i) + ".obj", text);
@@ -189,7 +188,7 @@ TEST(SceneToml, FramesOfAFolderComeInTheOrderOfTheirNumbers) {
 }
 
 TEST(SceneToml, FramesMayBeNamedOneByOneAndAreReadOnce) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("a.obj", kTriangleObj);
   folder.write("b.obj", kSquareObj);
   const Scene scene =
@@ -251,8 +250,8 @@ leaf_triangles = 4
 }
 
 TEST(SceneToml, FilesAreFoundInTheFolderThenInTheSearchPath) {
-  const TempFolder here;
-  const TempFolder elsewhere;
+  const TemporaryFolder here;
+  const TemporaryFolder elsewhere;
   here.write("a.obj", kTriangleObj);
   elsewhere.write("a.obj", kSquareObj);
   elsewhere.write("sub/b.obj", kSquareObj);
@@ -269,7 +268,7 @@ TEST(SceneToml, FilesAreFoundInTheFolderThenInTheSearchPath) {
 }
 
 TEST(SceneToml, NamesMayHoldAnyUtf8) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("Häschen/模型 α.obj", kTriangleObj);
   const Scene scene =
       parse("[[model]]\nfile = \"Häschen/模型 α.obj\"\nname = \"ünï\"\n", folder.path());
@@ -278,7 +277,7 @@ TEST(SceneToml, NamesMayHoldAnyUtf8) {
 }
 
 TEST(SceneToml, AModelNamedTwiceIsReadOnce) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("a.obj", kTriangleObj);
   const Scene scene =
       parse("[[model]]\nfile = \"a.obj\"\n[[model]]\nfile = \"a.obj\"\nscale = 2\n", folder.path());
