@@ -14,11 +14,6 @@ namespace encore::app {
 
 namespace {
 
-std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
-  const std::string_view near = scene::closest_name(word, candidates);
-  return near.empty() ? std::string() : fmt::format(" (did you mean '{}'?)", near);
-}
-
 std::vector<std::string_view> structure_names() {
   std::vector<std::string_view> names;
   for (const accel::StructureKind kind : accel::all_structure_kinds()) {
@@ -36,8 +31,8 @@ std::vector<accel::StructureKind> default_kinds() {
 
 std::string unknown_structure(std::string_view name) {
   const auto names = structure_names();
-  return fmt::format("unknown structure '{}'{}; there are {}", name, did_you_mean(name, names),
-                     fmt::join(names, ", "));
+  return fmt::format("unknown structure '{}'; there are {}{}", name, fmt::join(names, ", "),
+                     scene::did_you_mean(name, names));
 }
 
 std::vector<accel::StructureKind> kinds_from_names(const std::vector<std::string>& names) {
@@ -77,8 +72,19 @@ bool is_structure_setting(std::string_view key) {
 std::string setting_problem(accel::StructureSpec& spec, std::string_view key,
                             std::string_view value) {
   std::string problem = accel::apply_setting(spec, key, value);
-  if (problem.starts_with("unknown")) problem += did_you_mean(key, accel::setting_keys());
+  if (problem.starts_with("unknown")) problem += scene::did_you_mean(key, accel::setting_keys());
   return problem;
+}
+
+/// A preference that nothing will read is misspelt.
+void warn_of_unknown(const scene::Preference& preference, Terminal& terminal) {
+  std::vector<std::string_view> known{"structure", "policy", "device", "threads"};
+  known.insert(known.end(), accel::setting_keys().begin(), accel::setting_keys().end());
+  if (std::find(known.begin(), known.end(), preference.key) != known.end()) return;
+  // Unknown keys of a known structure are errors where they are applied.
+  if (is_structure_setting(preference.key)) return;
+  terminal.warning(fmt::format("{}: unknown setting '{}' is ignored{}", preference.place,
+                               preference.key, scene::did_you_mean(preference.key, known)));
 }
 
 void apply_settings(accel::StructureSpec& spec, const CommonOptions& options,
@@ -149,6 +155,9 @@ scene::Scene open_scene(const std::string& name_or_path, const CommonOptions& op
                                                   options.search_path.end());
   scene::Scene scene = scene::load_scene(name_or_path, search);
   for (const std::string& message : scene.warnings.messages) terminal.warning(message);
+  for (const scene::Preference& preference : scene.preferences) {
+    warn_of_unknown(preference, terminal);
+  }
   return scene;
 }
 

@@ -31,11 +31,9 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
   const std::vector<std::string_view> candidates(names.begin(), names.end());
-  const std::string_view near = encore::scene::closest_name(word, candidates);
-  throw encore::app::UsageError(
-      fmt::format("unknown command '{}'{}; there are {}", word,
-                  near.empty() ? std::string() : fmt::format(" (did you mean '{}'?)", near),
-                  fmt::join(names, ", ")));
+  throw encore::app::UsageError(fmt::format("unknown command '{}'; there are {}{}", word,
+                                            fmt::join(names, ", "),
+                                            encore::scene::did_you_mean(word, candidates)));
 }
 
 int run(int argc, char** argv) {

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <thread>
+#include <utility>
 
 namespace encore::app {
 
@@ -36,10 +38,33 @@ std::vector<std::string> scene_names(const std::vector<WorkloadSpec>& specs) {
   return names;
 }
 
+/// Threads that render: one number, or "2 (toys), 4 (bunny)" where scenes ask for different ones.
+std::string rendering_threads(const std::vector<WorkloadSpec>& specs) {
+  std::vector<std::pair<std::string, unsigned>> of_scene;
+  for (const WorkloadSpec& spec : specs) {
+    const unsigned threads = spec.threads > 0 ? static_cast<unsigned>(spec.threads)
+                                              : std::max(1U, std::thread::hardware_concurrency());
+    const std::pair<std::string, unsigned> entry{spec.scene->name, threads};
+    if (std::find(of_scene.begin(), of_scene.end(), entry) == of_scene.end()) {
+      of_scene.push_back(entry);
+    }
+  }
+  const auto differs = [&](const auto& entry) { return entry.second != of_scene.front().second; };
+  if (of_scene.empty() || std::none_of(of_scene.begin(), of_scene.end(), differs)) {
+    return of_scene.empty() ? "" : std::to_string(of_scene.front().second);
+  }
+  std::string text;
+  for (const auto& [scene, threads] : of_scene) {
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", threads, scene);
+  }
+  return text;
+}
+
 /// What holds for every configuration and so is not a column.
-std::vector<energy::KeyValue> common_settings(const ProfileOptions& options) {
+std::vector<energy::KeyValue> common_settings(const ProfileOptions& options,
+                                              const std::vector<WorkloadSpec>& specs) {
   std::vector<energy::KeyValue> settings{{"memory", options.memory},
-                                         {"threads", std::to_string(options.threads)}};
+                                         {"threads", rendering_threads(specs)}};
   if (!options.update_case.empty()) settings.push_back({"update_case", options.update_case});
   for (const std::string& setting : options.settings) settings.push_back({"set", setting});
   return settings;
@@ -56,7 +81,7 @@ energy::SessionInfo session_info(const ProfileOptions& options,
   info.plan.warm_up = std::min(info.plan.warm_up, info.plan.run);
   info.sensor = missing_sensor(info.machine);
   info.scenes = scene_names(specs);
-  info.settings = common_settings(options);
+  info.settings = common_settings(options, specs);
   return info;
 }
 

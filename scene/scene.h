@@ -37,7 +37,7 @@ struct Preference {
   std::string place;
 };
 
-/// A whole scene: owned content, nothing derived. Immutable after loading except through edit().
+/// A whole scene: owned content, nothing derived. Whoever edits it calls mark_changed().
 class Scene {
  public:
   std::string name;

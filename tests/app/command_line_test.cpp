@@ -57,6 +57,16 @@ TEST(CommandLine, BadInputExitsWithThreeAndNamesThePlace) {
   EXPECT_TRUE(contains(missing.err, "no/such/file.ply")) << missing.err;
 }
 
+TEST(CommandLine, MisspeltSettingsOfASceneAreWarnedOf) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.write(
+      "scene.toml", "[[model]]\ngenerator = \"box\"\n[settings]\nstructre = \"kd-sah\"\n");
+  const ProgramResult result = run_encore({"verify", file, "--rays", "20"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(contains(result.err, "scene.toml:4")) << result.err;
+  EXPECT_TRUE(contains(result.err, "did you mean 'structure'")) << result.err;
+}
+
 TEST(CommandLine, ScenesListsEverySampleOnceAsTableAndJson) {
   const ProgramResult table = run_encore({"scenes"});
   const ProgramResult json = run_encore({"scenes", "--json"});
