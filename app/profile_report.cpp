@@ -1,6 +1,7 @@
 #include "app/profile_report.h"
 
 #include "app/json_text.h"
+#include "app/number_text.h"
 #include "app/profile_table.h"
 #include "energy/session_columns.h"
 
@@ -42,13 +43,8 @@ std::string percent(std::optional<double> share) {
   return share ? fmt::format("{:.1f}%", 100.0 * *share) : std::string();
 }
 
-/// Bytes in the unit that leaves one to four digits before the point.
 std::string bytes(std::optional<double> value) {
-  if (!value) return {};
-  if (*value < 1e4) return fmt::format("{:.0f} B", *value);
-  if (*value < 1e7) return fmt::format("{:.1f} kB", *value / 1e3);
-  if (*value < 1e10) return fmt::format("{:.1f} MB", *value / 1e6);
-  return fmt::format("{:.1f} GB", *value / 1e9);
+  return value ? bytes_text(static_cast<std::uint64_t>(*value)) : std::string();
 }
 
 /// "depth 18" of a tree, "22x22x22" of a grid.
