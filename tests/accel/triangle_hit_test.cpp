@@ -3,6 +3,7 @@
 
 #include "accel/exact_oracle.h"
 #include "accel/triangle_filter.h"
+#include "tests/support/random_triangles.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,7 +12,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <random>
 #include <vector>
 
 namespace encore::accel {
@@ -21,21 +21,7 @@ using scene::Hit;
 using scene::make_triangle;
 using scene::Ray;
 using scene::Triangle;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  float between(float low, float high) {
-    return low + (high - low) * static_cast<float>(engine_() >> 40) * 0x1p-24F;
-  }
-  glm::vec3 point(float reach) {
-    return {between(-reach, reach), between(-reach, reach), between(-reach, reach)};
-  }
-  std::uint64_t bits() { return engine_(); }
-
- private:
-  std::mt19937_64 engine_;
-};
+using test::Random;
 
 bool hits(const Ray& ray, const Triangle& triangle, Hit& hit) {
   hit = Hit{.t = ray.t_max};
@@ -165,7 +151,7 @@ TEST(TriangleHit, NoRaySlipsBetweenTwoTrianglesThatShareAnEdge) {
 }
 
 // The filter's promise, for triangles and rays of all shapes: what it drops, the decision drops.
-void expect_filter_drops_no_hit(std::uint64_t seed, float size, float distance, float scale,
+void expect_filter_drops_no_hit(std::uint32_t seed, float size, float distance, float scale,
                                 float direction_scale = 1.0F) {
   Random random(seed);
   std::vector<Triangle> triangles;
@@ -177,7 +163,7 @@ void expect_filter_drops_no_hit(std::uint64_t seed, float size, float distance, 
     references.push_back(i);
   }
   for (int i = 0; i < 3000; ++i) {
-    const Triangle& target = triangles[random.bits() % triangles.size()];
+    const Triangle& target = triangles[random.below(static_cast<std::uint32_t>(triangles.size()))];
     const float u = random.between(-0.001F, 1.0F);
     const float v = random.between(-0.001F, 1.001F - u);
     const glm::vec3 aim = target.v0 + u * (target.v1 - target.v0) + v * (target.v2 - target.v0);

@@ -1,7 +1,11 @@
 #pragma once
 
+#include "accel/acceleration_structure.h"
+#include "accel/settings.h"
 #include "scene/triangle.h"
 #include "tests/support/random_triangles.h"
+
+#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <string>
@@ -112,6 +116,22 @@ inline std::vector<NamedScene> hostile_scenes() {
   uneven.triangles.push_back(scene::make_triangle({-10, -10, -9}, {10, -10, -9}, {0, 10, 9}));
   scenes.push_back(uneven);
   return scenes;
+}
+
+/// Both builders, and how their tests are named.
+inline const auto kKinds = testing::Values(StructureKind::kd_median, StructureKind::kd_sah);
+inline std::string kind_name(const testing::TestParamInfo<StructureKind>& kind) {
+  return kind.param == StructureKind::kd_sah ? "sah" : "median";
+}
+
+/// All nodes of a tree, depth first.
+inline std::vector<NodeView> nodes_of(const AccelerationStructure& tree) {
+  std::vector<NodeView> nodes;
+  tree.visit([&](const NodeView& node) {
+    nodes.push_back(node);
+    return true;
+  });
+  return nodes;
 }
 
 }  // namespace encore::accel::kd_test

@@ -16,21 +16,10 @@
 namespace encore::accel {
 namespace {
 
-class KdTreeBuild : public testing::TestWithParam<StructureKind> {};
-INSTANTIATE_TEST_SUITE_P(Kinds, KdTreeBuild,
-                         testing::Values(StructureKind::kd_median, StructureKind::kd_sah),
-                         [](const auto& kind) {
-                           return kind.param == StructureKind::kd_sah ? "sah" : "median";
-                         });
+using kd_test::nodes_of;
 
-std::vector<NodeView> nodes_of(const AccelerationStructure& tree) {
-  std::vector<NodeView> nodes;
-  tree.visit([&](const NodeView& node) {
-    nodes.push_back(node);
-    return true;
-  });
-  return nodes;
-}
+class KdTreeBuild : public testing::TestWithParam<StructureKind> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, KdTreeBuild, kd_test::kKinds, kd_test::kind_name);
 
 bool holds(const Bounds& box, const glm::vec3& p) {
   return p.x >= box.min.x && p.y >= box.min.y && p.z >= box.min.z && p.x <= box.max.x &&

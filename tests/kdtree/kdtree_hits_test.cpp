@@ -18,21 +18,10 @@ using encore::test::bounds_of_all;
 using encore::test::expect_oracle_hits;
 using kd_test::Random;
 
-class KdTreeHits : public testing::TestWithParam<StructureKind> {};
-INSTANTIATE_TEST_SUITE_P(Kinds, KdTreeHits,
-                         testing::Values(StructureKind::kd_median, StructureKind::kd_sah),
-                         [](const auto& kind) {
-                           return kind.param == StructureKind::kd_sah ? "sah" : "median";
-                         });
+using kd_test::nodes_of;
 
-std::vector<NodeView> nodes_of(const AccelerationStructure& tree) {
-  std::vector<NodeView> nodes;
-  tree.visit([&](const NodeView& node) {
-    nodes.push_back(node);
-    return true;
-  });
-  return nodes;
-}
+class KdTreeHits : public testing::TestWithParam<StructureKind> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, KdTreeHits, kd_test::kKinds, kd_test::kind_name);
 
 glm::vec3 inside(Random& random, const Bounds& b) {
   return {random.between(b.min.x, b.max.x), random.between(b.min.y, b.max.y),
