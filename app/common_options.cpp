@@ -198,4 +198,26 @@ ImageSize parse_size(const std::string& text) {
   return {number(view.substr(0, cross)), number(view.substr(cross + 1))};
 }
 
+const scene::Preference* preference(const scene::Scene& scene, std::string_view key) {
+  const scene::Preference* found = nullptr;
+  for (const scene::Preference& one : scene.preferences) {
+    if (one.key == key) found = &one;
+  }
+  return found;
+}
+
+int chosen_threads(const CommonOptions& options, const scene::Scene& scene) {
+  if (options.threads > 0) return options.threads;
+  const scene::Preference* stated = preference(scene, "threads");
+  if (stated == nullptr) return 0;
+  int threads = 0;
+  const char* end = stated->value.data() + stated->value.size();
+  const auto result = std::from_chars(stated->value.data(), end, threads);
+  if (result.ec != std::errc{} || result.ptr != end || threads < 0 || threads > 4096) {
+    throw scene::InputError(
+        fmt::format("{}: threads must be 0 to 4096, not '{}'", stated->place, stated->value));
+  }
+  return threads;
+}
+
 }  // namespace encore::app

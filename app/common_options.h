@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace encore::app {
@@ -38,6 +39,13 @@ scene::Scene open_scene(const std::string& name_or_path, const CommonOptions& op
 /// (with the nearest name) or scene::InputError (for a wrong preference of the scene file).
 std::vector<accel::StructureSpec> chosen_structures(const CommonOptions& options,
                                                     const scene::Scene& scene);
+
+/// The last value that the scene file states for a setting; null if it does not.
+const scene::Preference* preference(const scene::Scene& scene, std::string_view key);
+
+/// The threads to render with: --threads, else the scene's preference, else 0 (all). Throws
+/// scene::InputError for a wrong preference.
+int chosen_threads(const CommonOptions& options, const scene::Scene& scene);
 
 /// Parses "256" (square) or "640x480"; throws UsageError unless both are in 1 … 16384.
 struct ImageSize {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 
 namespace encore::app {
@@ -43,15 +42,6 @@ void check_device(const std::string& device, const std::string& place) {
   throw scene::InputError(place + ": " + problem);
 }
 
-/// The last value the scene file states for a setting; null if it does not.
-const scene::Preference* preference(const scene::Scene& scene, std::string_view key) {
-  const scene::Preference* found = nullptr;
-  for (const scene::Preference& one : scene.preferences) {
-    if (one.key == key) found = &one;
-  }
-  return found;
-}
-
 /// The policies asked for, else the scene's, else rebuild; each once.
 std::vector<Policy> chosen_policies(const ProfileOptions& options, const scene::Scene& scene) {
   std::vector<Policy> policies;
@@ -69,20 +59,6 @@ std::vector<Policy> chosen_policies(const ProfileOptions& options, const scene::
     return {*policy};
   }
   return {Policy::rebuild};
-}
-
-int chosen_threads(const ProfileOptions& options, const scene::Scene& scene) {
-  if (options.threads > 0) return options.threads;
-  const scene::Preference* stated = preference(scene, "threads");
-  if (stated == nullptr) return 0;
-  int threads = 0;
-  const char* end = stated->value.data() + stated->value.size();
-  const auto result = std::from_chars(stated->value.data(), end, threads);
-  if (result.ec != std::errc{} || result.ptr != end || threads < 0 || threads > 4096) {
-    throw scene::InputError(
-        fmt::format("{}: threads must be 0 to 4096, not '{}'", stated->place, stated->value));
-  }
-  return threads;
 }
 
 void set_update_case(accel::StructureSpec& spec, const std::string& name) {

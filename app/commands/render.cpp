@@ -6,11 +6,11 @@
 #include "renderer/cpu_tracer.h"
 #include "renderer/heatmap.h"
 #include "renderer/image_io.h"
+#include "scene/model_input.h"
 #include "scene/sample_scenes.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -98,11 +98,7 @@ void check_out(const fs::path& out) {
   std::error_code error;
   const fs::file_status status = fs::status(out, error);
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
-  std::string extension = out.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
-    return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : char(c);
-  });
-  if (extension != ".png") {
+  if (scene::lower_extension(out) != ".png") {
     throw UsageError(
         fmt::format("--out writes PNG; give a name that ends in .png, not '{}'", out.string()));
   }
@@ -170,7 +166,7 @@ void print_report(const RenderReport& r, const RenderOptions& options, Terminal&
 /// Draws the picture or the heatmap and notes time and hits; false if it was interrupted.
 bool draw(const RenderOptions& options, std::optional<renderer::HeatmapQuantity> heatmap,
           const renderer::RenderInput& input, renderer::Image& image, RenderReport& report) {
-  renderer::CpuTracer tracer(options.threads);
+  renderer::CpuTracer tracer(chosen_threads(options, *input.scene));
   tracer.init(input);
   tracer.set_cancel_flag(&interrupted);
   report.threads = tracer.threads();
