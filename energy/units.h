@@ -44,6 +44,13 @@ constexpr Watts operator/(Joules energy, Seconds time) {
   return Watts(energy.value / time.value);
 }
 
+constexpr Joules operator*(Seconds time, Watts power) {
+  return power * time;
+}
+constexpr Seconds operator/(Joules energy, Watts power) {
+  return Seconds(energy.value / power.value);
+}
+
 constexpr double milliseconds(Seconds time) {
   return time.value * 1e3;
 }
