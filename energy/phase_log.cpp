@@ -29,6 +29,10 @@ void PhaseLog::begin(Phase phase) {
   if (spans_.size() == spans_.capacity()) throw std::logic_error("the phase log is full");
   is_open_ = true;
   open_.phase = phase;
+  if (listener_ != nullptr) {
+    listener_->before(phase);
+    listener_->began(phase, clock_.now());
+  }
   // The clock is read last here and first in end(), so that nothing of the log is in the phase.
   open_.start = clock_.now();
 }
@@ -37,6 +41,7 @@ void PhaseLog::end() {
   open_.end = clock_.now();
   is_open_ = false;
   spans_.push_back(open_);  // never allocates: begin() saw to it
+  if (listener_ != nullptr) listener_->ended(open_.phase, open_.end);
 }
 
 }  // namespace encore::energy

@@ -37,6 +37,16 @@ struct PhaseSpan {
   Seconds end;
 };
 
+/// Is told of phases as they begin and end, on the thread that marks them.
+class PhaseListener {
+ public:
+  virtual ~PhaseListener() = default;
+  /// Before the phase's time starts to count.
+  virtual void before(Phase phase) = 0;
+  virtual void began(Phase phase, Seconds now) = 0;
+  virtual void ended(Phase phase, Seconds now) = 0;
+};
+
 /// Records which phase ran when. A mark costs two readings of the clock and one store: memory is
 /// set aside beforehand.
 ///
@@ -62,6 +72,9 @@ class PhaseLog {
   /// `capacity`: the most marks between two clear(); the clock must outlive the log.
   explicit PhaseLog(const Clock& clock, std::size_t capacity = 64);
 
+  /// Tells `listener` of each phase from now on (null: nobody). It must outlive the log's marks.
+  void tell(PhaseListener* listener) { listener_ = listener; }
+
   /// Starts a phase. Throws std::logic_error if another one is still open (phases do not nest) or
   /// the capacity is used up.
   Mark mark(Phase phase) { return {*this, phase}; }
@@ -78,6 +91,7 @@ class PhaseLog {
   std::vector<PhaseSpan> spans_;
   PhaseSpan open_;
   bool is_open_ = false;
+  PhaseListener* listener_ = nullptr;
 };
 
 }  // namespace encore::energy
