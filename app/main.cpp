@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/exit_code.h"
 #include "app/interrupt.h"
+#include "energy/sources/discovery.h"
 #include "scene/diagnostics.h"
 #include "scene/text_suggestion.h"
 
@@ -43,15 +44,21 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("encore ") + ENCORE_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 6 verification mismatch,\n"
-      "130 interrupted (what was measured is saved).");
+      "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 no usable power sensor,\n"
+      "6 verification mismatch, 7 regression, 130 interrupted (what was measured is saved).");
 
   ExitCode result = ExitCode::ok;
   encore::app::add_profile_command(app, result);
+  encore::app::add_study_command(app, result);
   encore::app::add_render_command(app, result);
   encore::app::add_verify_command(app, result);
   encore::app::add_info_command(app, result);
   encore::app::add_scenes_command(app, result);
+  encore::app::add_doctor_command(app, result);
+  encore::app::add_battery_command(app, result);
+  encore::app::add_compare_command(app, result);
+  encore::app::add_model_command(app, result);
+  encore::app::add_attach_command(app, result);
 
   try {
     check_command_name(app, argc, argv);
@@ -63,6 +70,8 @@ int run(int argc, char** argv) {
     return fail(ExitCode::usage, error.what());
   } catch (const encore::scene::InputError& error) {
     return fail(ExitCode::bad_input, error.what());
+  } catch (const encore::energy::SensorError& error) {
+    return fail(ExitCode::no_sensor, error.what());
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::failure, "out of memory; close other programs or use a smaller scene");
   } catch (const std::exception& error) {

@@ -15,7 +15,10 @@ namespace {
 
 using accel::Policy;
 
-constexpr TestKind kAllTests[] = {TestKind::build, TestKind::fixed, TestKind::animated};
+constexpr TestKind kAllTests[] = {TestKind::build, TestKind::fixed, TestKind::animated,
+                                  TestKind::forced};
+/// Measured if none is named: a forced test adds nothing where the scene moves by itself.
+constexpr TestKind kUsualTests[] = {TestKind::build, TestKind::fixed, TestKind::animated};
 
 TestKind parse_test(const std::string& name) {
   std::vector<std::string_view> names;
@@ -80,7 +83,7 @@ class ScenePlan {
       : options_(options), tools_(tools), terminal_(terminal), scene_(std::move(scene)) {
     for (const std::string& name : options.tests) tests_.push_back(parse_test(name));
     named_ = !tests_.empty();
-    if (!named_) tests_.assign(std::begin(kAllTests), std::end(kAllTests));
+    if (!named_) tests_.assign(std::begin(kUsualTests), std::end(kUsualTests));
     policies_ = chosen_policies(options, *scene_);
     if (const scene::Preference* device = preference(*scene_, "device")) {
       check_device(device->value, device->place);
@@ -90,8 +93,10 @@ class ScenePlan {
   void append_to(std::vector<WorkloadSpec>& all) {
     const std::vector<accel::StructureSpec> structures = chosen_structures(options_, *scene_);
     for (const TestKind test : tests_) warn_about(test);
-    WorkloadSpec spec{
-        scene_, {}, {}, {}, parse_size(options_.size), chosen_threads(options_, *scene_)};
+    WorkloadSpec spec;
+    spec.scene = scene_;
+    spec.size = parse_size(options_.size);
+    spec.threads = chosen_threads(options_, *scene_);
     for (const accel::StructureSpec& structure : structures) {
       spec.structure = structure;
       set_update_case(spec.structure, options_.update_case);
@@ -143,13 +148,19 @@ class ScenePlan {
 
 std::vector<WorkloadSpec> list_workloads(const ProfileOptions& options, const WorkloadTools& tools,
                                          Terminal& terminal) {
+  return list_workloads(options, tools, terminal, [&](const std::string& name) {
+    return std::make_shared<const scene::Scene>(open_scene(name, options, terminal));
+  });
+}
+
+std::vector<WorkloadSpec> list_workloads(const ProfileOptions& options, const WorkloadTools& tools,
+                                         Terminal& terminal, const SceneOpener& open) {
   check_device(options.device, {});
   std::vector<std::string> names = options.scenes;
   if (names.empty()) names.emplace_back(scene::kDefaultSceneName);
   std::vector<WorkloadSpec> all;
   for (const std::string& name : names) {
-    const auto scene = std::make_shared<const scene::Scene>(open_scene(name, options, terminal));
-    ScenePlan(options, tools, terminal, scene).append_to(all);
+    ScenePlan(options, tools, terminal, open(name)).append_to(all);
   }
   if (all.empty()) {
     throw UsageError(

@@ -1,9 +1,11 @@
 #include "app/profile_report.h"
 
+#include "app/energy_report.h"
 #include "app/json_text.h"
 #include "app/number_text.h"
 #include "app/profile_table.h"
 #include "energy/session_columns.h"
+#include "energy/session_energy_columns.h"
 
 #include <fmt/format.h>
 
@@ -121,18 +123,15 @@ std::string frame_table(const std::vector<SummaryRow>& rows) {
 /// The columns whose content is always text, whatever it looks like.
 bool is_text(std::string_view column) {
   for (const std::string_view name :
-       {"scene", "device", "structure", "policy", "test", "energy_provenance"}) {
+       {"group", "scene", "device", "structure", "policy", "test", "memory", "update_case",
+        "source", "energy_provenance", "phase", "method", "note"}) {
     if (column == name) return true;
   }
   return false;
 }
 
-std::string json_result(const SummaryRow& row) {
-  energy::SessionColumns columns;
-  for (const energy::KeyValue& part : row.configuration) columns.configuration.push_back(part.key);
-  for (const energy::Counter& counter : row.counters) columns.counters.push_back(counter.name);
-  const energy::CsvRecord header = energy::summary_header(columns);
-  const energy::CsvRecord record = energy::to_record(row);
+/// One record as an object: empty is null, numbers are numbers.
+std::string json_object(const energy::CsvRecord& header, const energy::CsvRecord& record) {
   std::string json = "{";
   for (std::size_t i = 0; i < header.size(); ++i) {
     if (i > 0) json += ", ";
@@ -146,6 +145,25 @@ std::string json_result(const SummaryRow& row) {
     }
   }
   return json + "}";
+}
+
+energy::SessionColumns columns_of(const std::vector<energy::KeyValue>& configuration,
+                                  const std::vector<energy::Counter>& counters) {
+  energy::SessionColumns columns;
+  for (const energy::KeyValue& part : configuration) columns.configuration.push_back(part.key);
+  for (const energy::Counter& counter : counters) columns.counters.push_back(counter.name);
+  return columns;
+}
+
+/// A list of objects, one a line.
+std::string json_list(const std::vector<std::string>& objects) {
+  std::string json = "[";
+  const char* separator = "\n    ";
+  for (const std::string& object : objects) {
+    json += separator + object;
+    separator = ",\n    ";
+  }
+  return json + (objects.empty() ? "]" : "\n  ]");
 }
 
 }  // namespace
@@ -169,21 +187,28 @@ std::string report_text(const ProfileReport& report) {
                       ? std::string()
                       : fmt::format(" ({})", energy::to_string(report.state)));
   if (report.rows.empty()) return text + "\nNothing was measured.\n";
-  return text + build_table(report.rows) + frame_table(report.rows);
+  return text + build_table(report.rows) + frame_table(report.rows) + energy_text(report);
 }
 
 std::string report_json(const ProfileReport& report) {
   std::string json = fmt::format(
       "{{\n  \"session\": {},\n  \"state\": {},\n  \"energy\": {{\"provenance\": {}, "
-      "\"detail\": {}}},\n  \"results\": [",
+      "\"detail\": {}}},\n  \"sampling_share_of_a_core\": {},\n  \"results\": ",
       json_text(report.folder.string()), json_text(energy::to_string(report.state)),
-      json_text(energy::to_string(report.sensor.origin)), json_text(report.sensor.detail));
-  const char* separator = "\n    ";
+      json_text(energy::to_string(report.sensor.origin)), json_text(report.sensor.detail),
+      report.sampling ? energy::csv_number(report.sampling->share()) : "null");
+  std::vector<std::string> results;
   for (const SummaryRow& row : report.rows) {
-    json += separator + json_result(row);
-    separator = ",\n    ";
+    const auto columns = columns_of(row.configuration, row.counters);
+    results.push_back(json_object(energy::summary_header(columns), energy::to_record(row)));
   }
-  return json + (report.rows.empty() ? "]\n}\n" : "\n  ]\n}\n");
+  std::vector<std::string> phases;
+  for (const energy::PhaseRow& row : report.phases) {
+    const auto columns = columns_of(row.configuration, {});
+    phases.push_back(json_object(energy::phase_header(columns), energy::to_record(row)));
+  }
+  json += json_list(results) + ",\n  \"phases\": " + json_list(phases);
+  return json + "\n}\n";
 }
 
 }  // namespace encore::app

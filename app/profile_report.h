@@ -1,6 +1,7 @@
 #pragma once
 
 #include "energy/provenance.h"
+#include "energy/sampling/sampler.h"
 #include "energy/session.h"
 
 #include <filesystem>
@@ -16,6 +17,14 @@ struct ProfileReport {
   energy::SessionState state = energy::SessionState::complete;
   energy::Provenance sensor;
   std::vector<energy::SummaryRow> rows;
+  std::vector<energy::PhaseRow> phases;  ///< of the total, all configurations
+  /// For each configuration its name and what was found out about its figures.
+  struct Notes {
+    std::string name;
+    std::vector<std::string> sentences;
+  };
+  std::vector<Notes> notes;
+  std::optional<energy::SamplerCost> sampling;
 };
 
 /// For people: where the joules come from, where the session lies, and a table of the builds and

@@ -16,6 +16,12 @@ struct ProfileResult {
   std::string output;
 };
 
+/// The names of the scenes of these tests, each once, in order.
+std::vector<std::string> scene_names(const std::vector<WorkloadSpec>& specs);
+
+/// Threads that render: one number, or "2 (toys), 4 (bunny)" where scenes ask for different ones.
+std::string rendering_threads(const std::vector<WorkloadSpec>& specs);
+
 /// Measures everything that the options ask for, one configuration after the other, and writes the
 /// session as it goes. Once `stop` is set it ends after the current operation with what it has
 /// (ExitCode::interrupted). A structure that differs from brute force ends it with

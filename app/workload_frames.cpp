@@ -127,35 +127,111 @@ void DynamicWorkload::prepare() {
   init_renderer();
 }
 
-void DynamicWorkload::operation(energy::PhaseLog& log) {
+void DynamicWorkload::build_marked(energy::PhaseLog& log) {
+  const auto mark = log.mark(Phase::build);
+  build();
+}
+
+void DynamicWorkload::update_marked(energy::PhaseLog& log) {
+  const auto mark = log.mark(Phase::update);
+  update();
+}
+
+void DynamicWorkload::advance(energy::PhaseLog& log) {
   ++frame_;
   TriangleChange change = TriangleChange::none;
   {
     const auto mark = log.mark(Phase::animate);
     change = go_to(time_of(frame_));
   }
-  switch (reaction(change)) {
-    case Reaction::nothing:
-      break;
-    case Reaction::build: {
-      const auto mark = log.mark(Phase::build);
-      build();
-      break;
-    }
-    case Reaction::update: {
-      const auto mark = log.mark(Phase::update);
-      update();
-      break;
-    }
-  }
+  const Reaction what = reaction(change);
+  if (what == Reaction::build) build_marked(log);
+  if (what == Reaction::update) update_marked(log);
   // A structure left alone refers to triangles by place, so there must still be as many.
-  if (reaction(change) == Reaction::build) built_over_ = triangles_.triangles.size();
+  if (what == Reaction::build) built_over_ = triangles_.triangles.size();
   if (triangles_.triangles.size() != built_over_) {
     throw std::runtime_error("the triangle count of scene " + spec_.scene->name +
                              " changed, which policy static cannot follow; use rebuild");
   }
   if (change != TriangleChange::none) renderer_->refresh();
+}
+
+void DynamicWorkload::operation(energy::PhaseLog& log) {
+  advance(log);
   render(log);
+}
+
+std::vector<Phase> DynamicWorkload::separable() const {
+  std::vector<Phase> phases{Phase::animate, Phase::render};
+  if (spec_.policy != Policy::fixed) {
+    const bool refits = spec_.policy == Policy::refit && structure_->can_refit();
+    phases.insert(phases.begin() + 1, refits ? Phase::update : Phase::build);
+  }
+  return phases;
+}
+
+void DynamicWorkload::run_alone(Phase phase, energy::PhaseLog& log) {
+  switch (phase) {
+    case Phase::animate:
+      advance(log);
+      return;
+    case Phase::build:
+      build_marked(log);
+      renderer_->refresh();
+      return;
+    case Phase::update:
+      update_marked(log);
+      renderer_->refresh();
+      return;
+    case Phase::render:
+      render(log);
+      return;
+    case Phase::transfer:
+      return;
+  }
+}
+
+bool ForcedWorkload::updates() const {
+  return spec_.policy == Policy::refit && structure_->can_refit();
+}
+
+void ForcedWorkload::prepare() {
+  go_to(0.0);
+  build();
+  check("build");
+  if (updates()) {
+    update();
+    check("update");
+  }
+  init_renderer();
+}
+
+void ForcedWorkload::follow(energy::PhaseLog& log) {
+  if (updates()) {
+    const auto mark = log.mark(Phase::update);
+    update();
+  } else {
+    const auto mark = log.mark(Phase::build);
+    build();
+  }
+  renderer_->refresh();
+}
+
+void ForcedWorkload::operation(energy::PhaseLog& log) {
+  follow(log);
+  render(log);
+}
+
+std::vector<Phase> ForcedWorkload::separable() const {
+  return {updates() ? Phase::update : Phase::build, Phase::render};
+}
+
+void ForcedWorkload::run_alone(Phase phase, energy::PhaseLog& log) {
+  if (phase == Phase::render) {
+    render(log);
+  } else {
+    follow(log);
+  }
 }
 
 }  // namespace encore::app

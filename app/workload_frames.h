@@ -40,8 +40,15 @@ class DynamicWorkload final : public FrameWorkload {
   void prepare() override;
   /// Throws std::runtime_error if the triangle count changes under Policy::fixed.
   void operation(energy::PhaseLog& log) override;
+  [[nodiscard]] std::vector<energy::Phase> separable() const override;
+  /// `animate` is followed by what the policy makes of it, so that the structure stays true.
+  void run_alone(energy::Phase phase, energy::PhaseLog& log) override;
 
  private:
+  /// Brings the scene to the next frame and the structure after it.
+  void advance(energy::PhaseLog& log);
+  void build_marked(energy::PhaseLog& log);
+  void update_marked(energy::PhaseLog& log);
   [[nodiscard]] double time_of(std::uint64_t frame) const;
   /// What the policy makes of a change, without doing it.
   enum class Reaction { nothing, build, update };
@@ -51,6 +58,21 @@ class DynamicWorkload final : public FrameWorkload {
   double step_s_;
   std::uint64_t frame_ = 0;
   std::size_t built_over_ = 0;  ///< triangles that the structure was last built over
+};
+
+/// Nothing moves, but the structure is built or updated every frame all the same: the thesis'
+/// dynamic test (section 5.3), which keeps the cost of moving triangles out.
+class ForcedWorkload final : public FrameWorkload {
+ public:
+  using FrameWorkload::FrameWorkload;
+  void prepare() override;
+  void operation(energy::PhaseLog& log) override;
+  [[nodiscard]] std::vector<energy::Phase> separable() const override;
+  void run_alone(energy::Phase phase, energy::PhaseLog& log) override;
+
+ private:
+  [[nodiscard]] bool updates() const;
+  void follow(energy::PhaseLog& log);
 };
 
 /// Seconds from one frame of the dynamic test to the next.

@@ -103,6 +103,8 @@ std::string_view to_string(TestKind test) {
       return "static";
     case TestKind::animated:
       return "dynamic";
+    case TestKind::forced:
+      return "forced";
   }
   return "";
 }
@@ -112,8 +114,40 @@ WorkloadTools standard_tools() {
           [](int threads) { return std::make_unique<renderer::CpuTracer>(threads); }};
 }
 
+std::string workload_name(const WorkloadSpec& spec) {
+  std::string name = fmt::format("{}, {}, {}", spec.scene->name,
+                                 accel::to_string(spec.structure.kind), to_string(spec.test));
+  if (spec.test != TestKind::fixed) name += fmt::format(" ({})", accel::to_string(spec.policy));
+  if (spec.test != TestKind::build) {
+    name += fmt::format(", {}x{}", spec.size.width, spec.size.height);
+  }
+  if (spec.repeat > 1) name += fmt::format(", repeat {}", spec.repeat);
+  return name;
+}
+
+std::vector<energy::KeyValue> configuration_of(const WorkloadSpec& spec, std::size_t triangles) {
+  const bool renders = spec.test != TestKind::build;
+  // Nothing moves in the static test, so no policy is at work there.
+  const Policy policy = spec.test == TestKind::fixed ? Policy::fixed : spec.policy;
+  const auto* bvh = std::get_if<accel::BvhSettings>(&spec.structure.settings);
+  const bool updates = policy == Policy::refit && bvh != nullptr;
+  return {{"group", spec.group},
+          {"scene", spec.scene->name},
+          {"device", "cpu"},
+          {"structure", std::string(accel::to_string(spec.structure.kind))},
+          {"policy", std::string(accel::to_string(policy))},
+          {"test", std::string(to_string(spec.test))},
+          {"width", renders ? std::to_string(spec.size.width) : std::string()},
+          {"height", renders ? std::to_string(spec.size.height) : std::string()},
+          {"memory", std::string(accel::to_string(spec.structure.memory))},
+          {"update_case", updates ? std::string(accel::to_string(bvh->update_case)) : ""},
+          {"repeat", std::to_string(spec.repeat)},
+          {"triangles", std::to_string(triangles)}};
+}
+
 std::vector<std::string> configuration_columns() {
-  return {"scene", "device", "structure", "policy", "test", "width", "height", "triangles"};
+  return {"group", "scene",  "device", "structure",   "policy", "test",
+          "width", "height", "memory", "update_case", "repeat", "triangles"};
 }
 
 std::vector<std::string> counter_columns() {
@@ -132,7 +166,11 @@ std::vector<std::string> counter_columns() {
           "references_per_leaf",
           "duplication",
           "mrays_per_s",
-          "hits"};
+          "hits",
+          "rays_per_operation",
+          "joules_per_mray",
+          "joules_per_pixel",
+          "energy_delay_js"};
 }
 
 SceneWorkload::SceneWorkload(WorkloadSpec spec, const WorkloadTools& tools)
@@ -143,17 +181,7 @@ std::string SceneWorkload::name() const {
 }
 
 std::vector<energy::KeyValue> SceneWorkload::configuration() const {
-  const bool renders = spec_.test != TestKind::build;
-  // Nothing moves in the static test, so no policy is at work there.
-  const Policy policy = spec_.test == TestKind::fixed ? Policy::fixed : spec_.policy;
-  return {{"scene", spec_.scene->name},
-          {"device", "cpu"},
-          {"structure", std::string(accel::to_string(spec_.structure.kind))},
-          {"policy", std::string(accel::to_string(policy))},
-          {"test", std::string(to_string(spec_.test))},
-          {"width", renders ? std::to_string(spec_.size.width) : std::string()},
-          {"height", renders ? std::to_string(spec_.size.height) : std::string()},
-          {"triangles", std::to_string(triangles_.triangles.size())}};
+  return configuration_of(spec_, triangles_.triangles.size());
 }
 
 std::vector<Counter> SceneWorkload::counters(const energy::PerPhase<energy::Seconds>& mean) const {
@@ -183,7 +211,12 @@ std::vector<Counter> SceneWorkload::counters(const energy::PerPhase<energy::Seco
           {"references_per_leaf", figure(stats.references_per_leaf(), structured)},
           {"duplication", figure(stats.duplication(), structured)},
           {"mrays_per_s", mrays},
-          {"hits", rays.hits}};
+          {"hits", rays.hits},
+          {"rays_per_operation", rays.rays},
+          // Filled in when the energy is known (add_energy_figures).
+          {"joules_per_mray", {}, rays.rays.has_value()},
+          {"joules_per_pixel", {}, rays.rays.has_value()},
+          {"energy_delay_js", {}, true}};
 }
 
 void SceneWorkload::check(std::string_view when) const {
@@ -207,6 +240,8 @@ std::unique_ptr<SceneWorkload> make_workload(const WorkloadSpec& spec, const Wor
       return std::make_unique<StaticWorkload>(spec, tools);
     case TestKind::animated:
       return std::make_unique<DynamicWorkload>(spec, tools);
+    case TestKind::forced:
+      return std::make_unique<ForcedWorkload>(spec, tools);
   }
   return nullptr;
 }
@@ -214,6 +249,9 @@ std::unique_ptr<SceneWorkload> make_workload(const WorkloadSpec& spec, const Wor
 std::string reason_to_skip(TestKind test, Policy policy, const scene::Scene& scene) {
   if (test == TestKind::build && policy == Policy::fixed) {
     return "policy static builds nothing, so test build has nothing to measure";
+  }
+  if (test == TestKind::forced && policy == Policy::fixed) {
+    return "policy static builds nothing, so test forced has nothing to measure";
   }
   if (test != TestKind::animated) return {};
   if (!scene.animated()) {

@@ -17,11 +17,12 @@
 
 namespace encore::app {
 
-/// The thesis' three tests (section 5.1).
+/// What is looped over. The thesis' three tests (section 5.1) are build, static and forced.
 enum class TestKind {
   build,     ///< a loop of builds, or of updates with Policy::refit, forced though nothing changed
   fixed,     ///< "static": build once, then a loop of frames
   animated,  ///< "dynamic": animate, build or update by the policy, render, frame by frame
+  forced,    ///< build or update, render, frame by frame, though nothing moves
 };
 std::string_view to_string(TestKind test);
 
@@ -40,9 +41,17 @@ struct WorkloadSpec {
   accel::StructureSpec structure;
   accel::Policy policy = accel::Policy::rebuild;
   TestKind test = TestKind::build;
-  ImageSize size;   ///< of the tests that render
-  int threads = 0;  ///< for rendering; 0: all
+  ImageSize size;            ///< of the tests that render
+  std::string group;         ///< of the study it belongs to; empty outside studies
+  std::uint32_t repeat = 1;  ///< which repeat of the same configuration this is, from 1
+  int threads = 0;           ///< for rendering; 0: all
 };
+
+/// For people: "toys, bvh-median, dynamic (refit), 256x256".
+std::string workload_name(const WorkloadSpec& spec);
+
+/// What identifies a configuration, in the order of configuration_columns().
+std::vector<energy::KeyValue> configuration_of(const WorkloadSpec& spec, std::size_t triangles);
 
 /// A structure that does not return the hits of brute force. what() names scene, structure, the
 /// ray and both answers.
@@ -55,7 +64,7 @@ class MismatchError : public std::runtime_error {
 std::vector<std::string> configuration_columns();
 std::vector<std::string> counter_columns();
 
-/// What the three tests have in common: a scene at a time, and a structure over its triangles.
+/// What the tests have in common: a scene at a time, and a structure over its triangles.
 ///
 /// prepare() holds the structure to brute force over a sample of rays, also after an update where
 /// the test does updates, and throws MismatchError: a wrong structure is never timed.

@@ -21,7 +21,9 @@ target_compile_options(encore_options INTERFACE
   # a*b+c is never fused behind our back: hits, images and procedural scenes are the same bit for
   # bit on every machine, and exact cancellations in the edge tests stay exact.
   -ffp-contract=off
-  $<$<BOOL:${ENCORE_WERROR}>:-Werror>)
+  $<$<BOOL:${ENCORE_WERROR}>:-Werror>
+  # ... and of optional values that are always set before they are read (GCC bug 80635).
+  $<$<AND:$<BOOL:${ENCORE_WERROR}>,$<CXX_COMPILER_ID:GNU>>:-Wno-error=maybe-uninitialized>)
 target_include_directories(encore_options INTERFACE "${PROJECT_SOURCE_DIR}")
 
 if(ENCORE_SANITIZE)

@@ -10,6 +10,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace encore::energy {
@@ -83,18 +85,44 @@ std::vector<CsvRecord> parse_csv(std::string_view text) {
   return records;
 }
 
-CsvWriter::CsvWriter(const std::filesystem::path& path, const CsvRecord& header)
+CsvWriter::CsvWriter(const std::filesystem::path& path, const CsvRecord& header, Open open)
     : path_(path), columns_(header.size()) {
-  file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int how = open == Open::append ? O_RDWR | O_CREAT | O_APPEND : O_WRONLY | O_CREAT | O_TRUNC;
+  file_ = ::open(path.c_str(), how | O_CLOEXEC, 0666);
   if (file_ < 0) {
     throw SessionError("cannot create " + path.string() + ": " + std::strerror(errno));
   }
   try {
-    write(header);
+    if (open == Open::create || !go_on(header)) write(header);
   } catch (...) {
     ::close(file_);
     throw;
   }
+}
+
+bool CsvWriter::go_on(const CsvRecord& header) {
+  std::ifstream in(path_, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  const std::string text = content.str();
+  const std::vector<CsvRecord> records = parse_csv(text);
+  // The end of the last whole record: a line break outside quotes.
+  std::size_t whole = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (text[i] == '\n' && !quoted) whole = i + 1;
+  }
+  if (whole < text.size() && ::ftruncate(file_, static_cast<off_t>(whole)) != 0) {
+    throw SessionError("cannot write " + path_.string() + ": " + std::strerror(errno));
+  }
+  if (records.empty()) return false;
+  if (records.front() != header) {
+    throw SessionError(path_.string() +
+                       " was written by another version of this program (its columns differ); "
+                       "start a new folder");
+  }
+  return true;
 }
 
 CsvWriter::~CsvWriter() {
@@ -102,7 +130,8 @@ CsvWriter::~CsvWriter() {
 }
 
 void CsvWriter::write(const CsvRecord& record) {
-  if (record.size() != columns_) throw std::logic_error("a CSV record of the wrong length");
+  if (record.size() != columns_)
+    throw std::logic_error("a CSV record of the wrong length for " + path_.string());
   line_.clear();
   for (const std::string& field : record) {
     if (&field != &record.front()) line_ += ',';

@@ -32,8 +32,13 @@ std::vector<CsvRecord> parse_csv(std::string_view text);
 /// end of the program in whatever way. Lines end with LF.
 class CsvWriter {
  public:
-  /// Creates the file (or empties it) and writes the header. Throws SessionError.
-  CsvWriter(const std::filesystem::path& path, const CsvRecord& header);
+  enum class Open {
+    create,  ///< a new file, or an empty one in the place of an old one
+    append,  ///< goes on with the file if there is one: a last line that was cut off is removed
+  };
+  /// Opens the file and writes the header if it is new. Throws SessionError, also if an existing
+  /// file that is gone on with has another header.
+  CsvWriter(const std::filesystem::path& path, const CsvRecord& header, Open open = Open::create);
   ~CsvWriter();
   CsvWriter(const CsvWriter&) = delete;
   CsvWriter& operator=(const CsvWriter&) = delete;
@@ -43,6 +48,9 @@ class CsvWriter {
   void write(const CsvRecord& record);
 
  private:
+  /// Whether the file already holds this header; cuts off what a crash left of a last line.
+  bool go_on(const CsvRecord& header);
+
   std::filesystem::path path_;
   std::size_t columns_;
   int file_ = -1;

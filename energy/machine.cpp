@@ -1,5 +1,8 @@
 #include "energy/machine.h"
 
+#include "energy/machine_gpus.h"
+#include "energy/machine_state.h"
+
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -59,6 +62,7 @@ void read_cpu(const std::filesystem::path& path, Machine& machine) {
   for (const auto& [key, value] : read_pairs(path, ':')) {
     if (key == "processor") ++logical;
     if (key == "model name" && !machine.cpu_model) machine.cpu_model = value;
+    if (key == "microcode" && !machine.microcode) machine.microcode = value;
     // A core counts once, however many threads it runs; its number is unique in its package only.
     if (key == "physical id") package = value;
     if (key == "core id") cores.emplace(package, value);
@@ -91,6 +95,57 @@ std::optional<std::string> read_os(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
+void read_clock_limits(const SensorRoot& root, Machine& machine) {
+  const auto megahertz = [&](const std::string& cpu, const char* file) -> std::optional<double> {
+    const auto text = root.read("/sys/devices/system/cpu/" + cpu + "/cpufreq/" + file).text;
+    const auto kilohertz = parse_unsigned(text.value_or(""));
+    if (!kilohertz || *kilohertz == 0) return std::nullopt;
+    return static_cast<double>(*kilohertz) / 1e3;
+  };
+  // Cores differ: some processors have slow and fast ones.
+  for (const std::string& cpu : list_cpus(root)) {
+    const auto low = megahertz(cpu, "cpuinfo_min_freq");
+    const auto high = megahertz(cpu, "cpuinfo_max_freq");
+    if (low) machine.cpu_min_mhz = std::min(*low, machine.cpu_min_mhz.value_or(*low));
+    if (high) machine.cpu_max_mhz = std::max(*high, machine.cpu_max_mhz.value_or(*high));
+  }
+}
+
+std::optional<bool> read_boost(const SensorRoot& root) {
+  const std::string cpus = "/sys/devices/system/cpu/";
+  if (const auto off = root.read(cpus + "intel_pstate/no_turbo").text) return *off == "0";
+  for (const char* file : {"cpufreq/boost", "cpu0/cpufreq/boost"}) {
+    if (const auto on = root.read(cpus + file).text) return *on == "1";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> read_container(const SensorRoot& root) {
+  // Docker and podman leave a file; others are seen in the name of the first process's group.
+  const auto exists = [&](const char* path) {
+    std::error_code error;
+    return std::filesystem::exists(root.resolve(path), error);
+  };
+  if (exists("/.dockerenv")) return "docker";
+  if (exists("/run/.containerenv")) return "podman";
+  if (const auto manager = root.read("/run/systemd/container").text; manager && !manager->empty()) {
+    return *manager;
+  }
+  const std::string groups = root.read("/proc/1/cgroup").text.value_or("");
+  for (const char* name : {"kubepods", "docker", "containerd", "libpod", "lxc"}) {
+    if (groups.find(name) != std::string::npos) return name;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> build_id() {
+#ifdef ENCORE_BUILD_ID
+  return ENCORE_BUILD_ID;
+#else
+  return std::nullopt;
+#endif
+}
+
 std::string compiler_name() {
 #if defined(__clang__)
   return "clang " __clang_version__;
@@ -112,6 +167,15 @@ Machine read_machine(const std::filesystem::path& root) {
   machine.governor = read_line(root / "sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   machine.compiler = compiler_name();
   machine.build_type = ENCORE_BUILD_TYPE;
+  machine.build_id = build_id();
+  const SensorRoot sensors(root);
+  read_clock_limits(sensors, machine);
+  machine.boost = read_boost(sensors);
+  const MachineState state = read_machine_state(sensors);
+  machine.cpu_temperature_c = state.cpu_temperature_c;
+  if (state.on_battery) machine.power_supply = *state.on_battery ? "battery" : "mains";
+  machine.container = read_container(sensors);
+  machine.gpus = read_gpus(sensors);
   return machine;
 }
 

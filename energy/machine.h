@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace encore::energy {
 
@@ -21,6 +22,20 @@ struct Machine {
   std::optional<bool> virtual_machine;
   std::string compiler;
   std::string build_type;
+  /// The state of the source that the program was built from, as the version control names it;
+  /// nothing for a build outside of it.
+  std::optional<std::string> build_id = std::nullopt;
+  std::optional<std::string> microcode = std::nullopt;
+  std::optional<double> cpu_min_mhz = std::nullopt;  ///< lowest of any core
+  std::optional<double> cpu_max_mhz = std::nullopt;  ///< highest of any core, boost included
+  /// Whether cores may exceed their nominal clock.
+  std::optional<bool> boost = std::nullopt;
+  std::optional<double> cpu_temperature_c = std::nullopt;  ///< when the card was read
+  /// "mains" or "battery"; unknown where nothing tells, as on most desktops.
+  std::optional<std::string> power_supply = std::nullopt;
+  /// The container that the program runs in, "docker"; nothing if none was noticed.
+  std::optional<std::string> container = std::nullopt;
+  std::vector<std::string> gpus = {};  ///< "name (driver)" each; see read_gpus
 
   friend bool operator==(const Machine&, const Machine&) = default;
 };

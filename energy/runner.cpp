@@ -1,45 +1,14 @@
 #include "energy/runner.h"
 
+#include "energy/attribution/excitation.h"
+#include "energy/phase_probe.h"
+#include "energy/row_builder.h"
+
 #include <algorithm>
 
 namespace encore::energy {
 
 namespace {
-
-/// Gathers operations until they fill a row.
-class RowBuilder {
- public:
-  [[nodiscard]] bool empty() const { return operations_ == 0; }
-
-  void start(Seconds time) { start_ = time; }
-  void add(std::span<const PhaseSpan> spans, PerPhase<std::uint64_t>& counts) {
-    ++operations_;
-    for (const PhaseSpan& span : spans) {
-      ++counts[span.phase];
-      sums_[span.phase] = sums_[span.phase].value_or(Seconds(0)) + (span.end - span.start);
-    }
-  }
-
-  /// The row of everything since the last one; `zero` is the time that rows count from.
-  FrameRow take(const Workload& workload, Seconds zero) {
-    FrameRow row;
-    row.time = start_ - zero;
-    row.configuration = workload.configuration();
-    row.operations = operations_;
-    for (const Phase phase : kPhases) {
-      if (sums_[phase]) row.phases[phase] = *sums_[phase] / static_cast<double>(operations_);
-    }
-    *this = {};
-    return row;
-  }
-
-  [[nodiscard]] Seconds started() const { return start_; }
-
- private:
-  Seconds start_;
-  std::uint64_t operations_ = 0;
-  PerPhase<std::optional<Seconds>> sums_;
-};
 
 /// How far a stretch of the plan is that wants both a time and a number of operations.
 double share_done(Seconds elapsed, Seconds wanted, std::uint64_t operations, std::uint64_t least) {
@@ -49,93 +18,198 @@ double share_done(Seconds elapsed, Seconds wanted, std::uint64_t operations, std
   return std::clamp(std::min(by_time, by_count), 0.0, 1.0);
 }
 
-/// The part of the whole plan that warming up is taken to be, for progress.
-double warm_up_share(const Plan& plan) {
-  const double whole = plan.warm_up.value + plan.run.value;
-  return whole > 0 ? plan.warm_up.value / whole : 0.0;
-}
-
 class Run {
  public:
-  Run(Workload& workload, const Plan& plan, const Clock& clock, Seconds zero,
-      const std::atomic<bool>& stop, const RunObserver& observer)
+  Run(Workload& workload, const Plan& plan, const RunContext& context)
       : workload_(workload),
         plan_(plan),
-        clock_(clock),
-        zero_(zero),
-        stop_(stop),
-        observer_(observer),
-        log_(clock) {}
+        context_(context),
+        clock_(context.clock),
+        probe_(context.sampler, context.live),
+        log_(clock_),
+        row_(context) {
+    log_.tell(&probe_);
+    whole_ = (plan.idle_before + plan.warm_up + plan.run + plan.mix + plan.idle_after).value;
+  }
+
+  /// Sleeps for a while with all sources read at its edges.
+  void idle(Seconds length) {
+    if (length.value <= 0 || context_.stop) return;
+    read_sources();
+    const Seconds start = clock_.now();
+    constexpr Seconds kStep(0.1);
+    for (Seconds now = start; now - start < length && !context_.stop; now = clock_.now()) {
+      report(now, (now - start).value, "idle");
+      clock_.sleep_until(std::min(now + kStep, start + length), context_.stop);
+    }
+    read_sources();
+    result_.idle.push_back({start, clock_.now()});
+    before_ += length.value;
+  }
 
   void warm_up() {
     const Seconds start = clock_.now();
     std::uint64_t operations = 0;
-    while (!stop_) {
+    while (!context_.stop) {
+      const Seconds now = clock_.now();
       const double done =
-          share_done(clock_.now() - start, plan_.warm_up, operations, plan_.warm_up_operations);
-      report(clock_.now(), done * warm_up_share(plan_));
-      if (done >= 1.0) return;
-      log_.clear();
-      workload_.operation(log_);
+          share_done(now - start, plan_.warm_up, operations, plan_.warm_up_operations);
+      report(now, done * plan_.warm_up.value, "warm-up");
+      if (done >= 1.0) break;
+      operate();
       ++operations;
     }
+    before_ += plan_.warm_up.value;
   }
 
-  Measurement measure() {
-    const double before = warm_up_share(plan_);
+  void measure() {
+    read_sources();
     const Seconds start = clock_.now();
     std::uint64_t operations = 0;
-    while (!stop_) {
+    while (!context_.stop) {
       const Seconds now = clock_.now();
       const double done = share_done(now - start, plan_.run, operations, plan_.min_operations);
-      const bool enough = plan_.max_operations > 0 && operations >= plan_.max_operations;
-      if (!row_.empty() && now - row_.started() >= plan_.row) finish_row();
-      report(now, before + (1.0 - before) * done);
-      if (done >= 1.0 || enough) break;
+      const bool row_done = !row_.empty() && now - row_.started() >= plan_.row;
+      if (row_done) finish_row();
+      report(now, done * plan_.run.value, "measuring");
+      if (plan_.max_operations > 0 && operations >= plan_.max_operations) break;
+      if (done >= 1.0 && (!plan_.until || good_enough(now - start, row_done))) break;
 
-      if (row_.empty()) row_.start(clock_.now());
-      log_.clear();
-      workload_.operation(log_);
-      row_.add(log_.spans(), measurement_.phase_counts);
+      if (row_.empty()) row_.start(std::max(plan_.row, operation_time_));
+      const Seconds began = clock_.now();
+      operate();
+      operation_time_ = clock_.now() - began;
+      row_.add(log_.spans(), probe_, result_.phase_counts);
+      result_.busy.add_operations(1.0, began, clock_.now());
       ++operations;
     }
     if (!row_.empty()) finish_row();
-    measurement_.stopped = stop_;
-    return std::move(measurement_);
+    read_sources();
+    result_.measured = {start, clock_.now()};
+    before_ += plan_.run.value;
+  }
+
+  /// Repeats single phases in varied proportions, if there is more than one to tell apart and the
+  /// sources cannot see them one by one.
+  void mix() {
+    const std::vector<Phase> phases = phases_to_mix();
+    if (phases.empty()) return;
+    // What a block costs is found out by running each once: what must follow a phase (a build after
+    // moving triangles) takes its time, too.
+    PerPhase<Seconds> costs{};
+    read_sources();
+    const Seconds start = clock_.now();
+    for (const Phase phase : phases) {
+      const Seconds began = clock_.now();
+      log_.clear();
+      workload_.run_alone(phase, log_);
+      note_spans();
+      costs[phase] = clock_.now() - began;
+    }
+    Seconds period;
+    for (const std::size_t source : context_.total) {
+      const SourceInfo& info = context_.sampler->info(source);
+      period = std::max({period, info.update_period, info.smoothing});
+    }
+    const Seconds limit = plan_.mix * 1.5;
+    for (const MixBlock& block :
+         make_mix_blocks(phases, costs, period, plan_.mix, plan_.mix_seed)) {
+      if (context_.stop || clock_.now() - start > limit) break;
+      report(clock_.now(), std::min((clock_.now() - start).value, plan_.mix.value), "mixing");
+      run_block(block, phases);
+    }
+    read_sources();
+    result_.mixed.push_back({start, clock_.now()});
+    before_ += plan_.mix.value;
+  }
+
+  Measurement take() {
+    result_.stopped = context_.stop;
+    return std::move(result_);
   }
 
  private:
+  void operate() {
+    log_.clear();
+    workload_.operation(log_);
+    note_spans();
+  }
+  void note_spans() {
+    for (const PhaseSpan& span : log_.spans()) {
+      probe_.learn(span);
+      result_.busy.add(static_cast<std::size_t>(span.phase), span.start, span.end);
+    }
+  }
+  void run_block(const MixBlock& block, const std::vector<Phase>& phases) {
+    read_sources();
+    for (const Phase phase : phases) {
+      for (std::size_t n = 0; n < block.repeats[phase] && !context_.stop; ++n) {
+        log_.clear();
+        workload_.run_alone(phase, log_);
+        note_spans();
+      }
+    }
+    if (block.sleep.value > 0) clock_.sleep_until(clock_.now() + block.sleep, context_.stop);
+  }
+  [[nodiscard]] std::vector<Phase> phases_to_mix() const {
+    if (plan_.mix.value <= 0 || context_.sampler == nullptr || context_.stop) return {};
+    std::size_t happened = 0;
+    bool all_seen = true;
+    for (const Phase phase : kPhases) {
+      if (result_.phase_counts[phase] == 0) continue;
+      ++happened;
+      all_seen = all_seen && probe_.reads_edges(phase, context_.total);
+    }
+    if (happened < 2 || all_seen) return {};
+    std::vector<Phase> phases;
+    for (const Phase phase : workload_.separable()) {
+      if (result_.phase_counts[phase] > 0) phases.push_back(phase);
+    }
+    return phases;
+  }
+  [[nodiscard]] bool good_enough(Seconds elapsed, bool row_done) const {
+    if (elapsed >= plan_.until_limit) return true;
+    return row_done && context_.observer.enough && context_.observer.enough();
+  }
+  void read_sources() {
+    if (context_.sampler != nullptr) context_.sampler->read_now();
+  }
   void finish_row() {
-    measurement_.rows.push_back(row_.take(workload_, zero_));
-    if (observer_.on_row) observer_.on_row(measurement_.rows.back());
+    result_.rows.push_back(row_.take(workload_));
+    if (context_.observer.on_row) context_.observer.on_row(result_.rows.back());
   }
   /// Not more often than rows are made, so that short operations follow each other undisturbed.
-  void report(Seconds now, double share) {
-    if (!observer_.on_progress || (reported_ && now - *reported_ < plan_.row)) return;
+  void report(Seconds now, double done, std::string_view doing) {
+    if (!context_.observer.on_progress || (reported_ && now - *reported_ < plan_.row)) return;
     reported_ = now;
-    observer_.on_progress(share);
+    context_.observer.on_progress(whole_ > 0 ? (before_ + done) / whole_ : 0.0, doing);
   }
 
   Workload& workload_;
   const Plan& plan_;
+  const RunContext& context_;
   const Clock& clock_;
-  Seconds zero_;
-  const std::atomic<bool>& stop_;
-  const RunObserver& observer_;
+  PhaseProbe probe_;
   PhaseLog log_;
   RowBuilder row_;
+  Measurement result_;
+  Seconds operation_time_;
   std::optional<Seconds> reported_;
-  Measurement measurement_;
+  double whole_ = 0.0;   ///< seconds of the whole plan
+  double before_ = 0.0;  ///< of its parts that are done
 };
 
 }  // namespace
 
-Measurement run(Workload& workload, const Plan& plan, const Clock& clock, Seconds session_start,
-                const std::atomic<bool>& stop, const RunObserver& observer) {
+Measurement run(Workload& workload, const Plan& plan, const RunContext& context) {
   workload.prepare();
-  Run one(workload, plan, clock, session_start, stop, observer);
+  Run one(workload, plan, context);
+  one.idle(plan.idle_before);
   one.warm_up();
-  return one.measure();
+  one.measure();
+  one.mix();
+  one.idle(plan.idle_after);
+  return one.take();
 }
 
 }  // namespace encore::energy

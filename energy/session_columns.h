@@ -17,8 +17,7 @@ struct SessionColumns {
 /// What a cell holds whose number could not be measured.
 inline constexpr std::string_view kUnavailable = "unavailable";
 
-/// The headers of samples.csv, frames.csv and summary.csv (docs/session-format.md).
-CsvRecord sample_header();
+/// The headers of frames.csv and summary.csv (docs/session-format.md).
 CsvRecord frame_header(const SessionColumns& columns);
 CsvRecord summary_header(const SessionColumns& columns);
 

@@ -13,6 +13,10 @@ constexpr const char* kInfoFile = "session.toml";
 constexpr const char* kSamplesFile = "samples.csv";
 constexpr const char* kFramesFile = "frames.csv";
 constexpr const char* kSummaryFile = "summary.csv";
+constexpr const char* kPhasesFile = "phases.csv";
+constexpr const char* kWindowsFile = "windows.csv";
+constexpr const char* kConvergenceFile = "convergence.csv";
+constexpr const char* kEventsFile = "events.csv";
 
 /// Reads a file's rows with `from_record(header, record)`, and puts the place before its errors.
 template <class Row, class FromRecord>
@@ -43,12 +47,21 @@ SessionInfo written(const std::filesystem::path& folder, SessionInfo info) {
 }  // namespace
 
 SessionWriter::SessionWriter(const std::filesystem::path& folder, SessionInfo info,
-                             const SessionColumns& columns)
+                             const SessionColumns& columns, CsvWriter::Open open)
     : folder_(folder),
       info_(written(folder, std::move(info))),
-      samples_(folder / kSamplesFile, sample_header()),
-      frames_(folder / kFramesFile, frame_header(columns)),
-      summary_(folder / kSummaryFile, summary_header(columns)) {}
+      samples_(folder / kSamplesFile, sample_header(), open),
+      frames_(folder / kFramesFile, frame_header(columns), open),
+      summary_(folder / kSummaryFile, summary_header(columns), open),
+      phases_(folder / kPhasesFile, phase_header(columns), open),
+      windows_(folder / kWindowsFile, window_header(columns), open),
+      convergence_(folder / kConvergenceFile, convergence_header(columns), open),
+      events_(folder / kEventsFile, event_header(), open) {}
+
+void SessionWriter::update(const SessionInfo& info) {
+  info_ = info;
+  write_session_toml(folder_ / kInfoFile, info_);
+}
 
 void SessionWriter::finish(SessionState state) {
   info_.state = state;
@@ -60,6 +73,12 @@ Session read_session(const std::filesystem::path& folder) {
   session.info = read_session_toml(folder / kInfoFile);
   session.frames = read_rows<FrameRow>(folder / kFramesFile, frame_from_record);
   session.summaries = read_rows<SummaryRow>(folder / kSummaryFile, summary_from_record);
+  session.phases = read_rows<PhaseRow>(folder / kPhasesFile, phase_from_record);
+  session.windows = read_rows<WindowRow>(folder / kWindowsFile, window_from_record);
+  session.convergence =
+      read_rows<ConvergenceRow>(folder / kConvergenceFile, convergence_from_record);
+  session.samples = read_rows<SampleRow>(folder / kSamplesFile, sample_from_record);
+  session.events = read_rows<EventRow>(folder / kEventsFile, event_from_record);
   return session;
 }
 

@@ -38,6 +38,17 @@ toml::table machine_table(const Machine& machine) {
   insert(table, "virtual_machine", machine.virtual_machine);
   table.insert("compiler", machine.compiler);
   table.insert("build_type", machine.build_type);
+  insert(table, "build_id", machine.build_id);
+  insert(table, "microcode", machine.microcode);
+  insert(table, "cpu_min_mhz", machine.cpu_min_mhz);
+  insert(table, "cpu_max_mhz", machine.cpu_max_mhz);
+  insert(table, "boost", machine.boost);
+  insert(table, "cpu_temperature_c", machine.cpu_temperature_c);
+  insert(table, "power_supply", machine.power_supply);
+  insert(table, "container", machine.container);
+  toml::array gpus;
+  for (const std::string& gpu : machine.gpus) gpus.push_back(gpu);
+  if (!gpus.empty()) table.insert("gpus", gpus);
   return table;
 }
 
@@ -49,7 +60,45 @@ toml::table plan_table(const Plan& plan) {
   table.insert("min_operations", signed_of(plan.min_operations));
   table.insert("max_operations", signed_of(plan.max_operations));
   table.insert("row_s", plan.row.value);
+  table.insert("name", plan.name);
+  table.insert("idle_before_s", plan.idle_before.value);
+  table.insert("idle_after_s", plan.idle_after.value);
+  table.insert("cool_down_s", plan.cool_down.value);
+  table.insert("mix_s", plan.mix.value);
+  table.insert("mix_seed", signed_of(plan.mix_seed));
+  if (plan.poll) table.insert("poll_s", plan.poll->value);
+  if (plan.cut_below) table.insert("cut_below_watts", plan.cut_below->value);
+  table.insert("repeats", signed_of(plan.repeats));
+  table.insert("order", to_string(plan.order));
+  table.insert("order_seed", signed_of(plan.order_seed));
+  if (plan.until) table.insert("until", *plan.until);
+  table.insert("until_limit_s", plan.until_limit.value);
   return table;
+}
+
+toml::array source_tables(const std::vector<SessionSource>& sources) {
+  toml::array tables;
+  for (const SessionSource& source : sources) {
+    const SourceInfo& info = source.info;
+    toml::table table{{"name", info.name},
+                      {"kind", to_string(info.kind)},
+                      {"domain", to_string(info.domain)},
+                      {"unit", info.unit},
+                      {"includes", info.includes},
+                      {"place", info.place},
+                      {"provenance", to_string(info.provenance.origin)},
+                      {"detail", info.provenance.detail},
+                      {"in_total", source.in_total},
+                      {"counter", info.is_counter},
+                      {"update_period_s", info.update_period.value},
+                      {"poll_period_s", info.poll_period.value},
+                      {"gain_uncertainty", info.gain_uncertainty},
+                      {"smoothing_s", info.smoothing.value}};
+    if (info.energy_step) table.insert("energy_step_joules", info.energy_step->value);
+    if (info.power_step) table.insert("power_step_watts", info.power_step->value);
+    tables.push_back(std::move(table));
+  }
+  return tables;
 }
 
 /// Looks values up by their dotted name and complains by it.
@@ -70,6 +119,19 @@ class TableReader {
       if (!value) throw wrong(key);
       return value;
     }
+  }
+  /// An array of strings; empty if it is not there.
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key) const {
+    std::vector<std::string> found;
+    const auto node = table_.at_path(key);
+    if (!node) return found;
+    const toml::array* array = node.as_array();
+    if (array == nullptr) throw wrong(key);
+    for (const toml::node& text : *array) {
+      if (!text.is_string()) throw wrong(key);
+      found.push_back(text.value_or(std::string()));
+    }
+    return found;
   }
   template <class T>
   T required(std::string_view key) const {
@@ -98,6 +160,15 @@ Machine machine_from(const TableReader& read) {
   machine.virtual_machine = read.optional<bool>("machine.virtual_machine");
   machine.compiler = read.required<std::string>("machine.compiler");
   machine.build_type = read.required<std::string>("machine.build_type");
+  machine.build_id = read.optional<std::string>("machine.build_id");
+  machine.microcode = read.optional<std::string>("machine.microcode");
+  machine.cpu_min_mhz = read.optional<double>("machine.cpu_min_mhz");
+  machine.cpu_max_mhz = read.optional<double>("machine.cpu_max_mhz");
+  machine.boost = read.optional<bool>("machine.boost");
+  machine.cpu_temperature_c = read.optional<double>("machine.cpu_temperature_c");
+  machine.power_supply = read.optional<std::string>("machine.power_supply");
+  machine.container = read.optional<std::string>("machine.container");
+  machine.gpus = read.texts("machine.gpus");
   return machine;
 }
 
@@ -109,7 +180,60 @@ Plan plan_from(const TableReader& read) {
   plan.min_operations = read.required<std::uint64_t>("plan.min_operations");
   plan.max_operations = read.required<std::uint64_t>("plan.max_operations");
   plan.row = Seconds(read.required<double>("plan.row_s"));
+  plan.name = read.required<std::string>("plan.name");
+  plan.idle_before = Seconds(read.required<double>("plan.idle_before_s"));
+  plan.idle_after = Seconds(read.required<double>("plan.idle_after_s"));
+  plan.cool_down = Seconds(read.required<double>("plan.cool_down_s"));
+  plan.mix = Seconds(read.required<double>("plan.mix_s"));
+  plan.mix_seed = read.required<std::uint64_t>("plan.mix_seed");
+  if (const auto poll = read.optional<double>("plan.poll_s")) plan.poll = Seconds(*poll);
+  if (const auto cut = read.optional<double>("plan.cut_below_watts")) plan.cut_below = Watts(*cut);
+  plan.repeats = static_cast<std::uint32_t>(read.required<std::uint64_t>("plan.repeats"));
+  const auto order = parse_order(read.required<std::string>("plan.order"));
+  if (!order) throw read.wrong("plan.order");
+  plan.order = *order;
+  plan.order_seed = read.required<std::uint64_t>("plan.order_seed");
+  plan.until = read.optional<double>("plan.until");
+  plan.until_limit = Seconds(read.required<double>("plan.until_limit_s"));
   return plan;
+}
+
+std::vector<SessionSource> sources_from(const toml::table& table, const std::string& file) {
+  std::vector<SessionSource> sources;
+  const toml::array* tables = table["source"].as_array();
+  if (tables == nullptr) return sources;
+  for (const toml::node& node : *tables) {
+    const toml::table* entry = node.as_table();
+    if (entry == nullptr) throw SessionError(file + ": source has a wrong value");
+    const TableReader read(*entry, file + ", source");
+    SessionSource source;
+    SourceInfo& info = source.info;
+    info.name = read.required<std::string>("name");
+    const auto kind = parse_source_kind(read.required<std::string>("kind"));
+    if (!kind) throw read.wrong("kind");
+    info.kind = *kind;
+    const auto domain = parse_domain(read.required<std::string>("domain"));
+    if (!domain) throw read.wrong("domain");
+    info.domain = *domain;
+    info.unit = read.required<std::string>("unit");
+    info.includes = read.required<std::string>("includes");
+    info.place = read.required<std::string>("place");
+    const auto origin = parse_origin(read.required<std::string>("provenance"));
+    if (!origin) throw read.wrong("provenance");
+    info.provenance = {*origin, read.required<std::string>("detail")};
+    source.in_total = read.required<bool>("in_total");
+    info.is_counter = read.required<bool>("counter");
+    info.update_period = Seconds(read.required<double>("update_period_s"));
+    info.poll_period = Seconds(read.required<double>("poll_period_s"));
+    info.gain_uncertainty = read.required<double>("gain_uncertainty");
+    info.smoothing = Seconds(read.required<double>("smoothing_s"));
+    if (const auto step = read.optional<double>("energy_step_joules")) {
+      info.energy_step = Joules(*step);
+    }
+    if (const auto step = read.optional<double>("power_step_watts")) info.power_step = Watts(*step);
+    sources.push_back(std::move(source));
+  }
+  return sources;
 }
 
 }  // namespace
@@ -122,7 +246,7 @@ void write_session_toml(const std::filesystem::path& path, const SessionInfo& in
   for (const KeyValue& setting : info.settings) {
     settings.push_back(toml::table{{"key", setting.key}, {"value", setting.value}});
   }
-  const toml::table table{
+  toml::table table{
       {"program", info.program},
       {"command_line", info.command_line},
       {"started_utc", info.started_utc},
@@ -134,6 +258,8 @@ void write_session_toml(const std::filesystem::path& path, const SessionInfo& in
        toml::table{{"provenance", to_string(info.sensor.origin)}, {"detail", info.sensor.detail}}},
       {"setting", settings},
   };
+
+  if (!info.sources.empty()) table.insert("source", source_tables(info.sources));
 
   // Write beside, then rename: whoever reads sees the old file or the new one.
   const std::filesystem::path beside = path.string() + ".new";
@@ -174,6 +300,7 @@ SessionInfo read_session_toml(const std::filesystem::path& path) {
   const auto origin = parse_origin(read.required<std::string>("sensor.provenance"));
   if (!origin) throw read.wrong("sensor.provenance");
   info.sensor = {*origin, read.required<std::string>("sensor.detail")};
+  info.sources = sources_from(table, path.string());
   if (const toml::array* scenes = table["scenes"].as_array()) {
     for (const toml::node& scene : *scenes) info.scenes.push_back(scene.value_or(std::string()));
   }

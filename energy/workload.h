@@ -20,6 +20,8 @@ struct KeyValue {
 struct Counter {
   std::string name;
   std::optional<double> value;
+  /// Without a value: whether it applies but could not be measured.
+  bool unavailable = false;
 
   friend bool operator==(const Counter&, const Counter&) = default;
 };
@@ -43,6 +45,15 @@ class Workload {
   /// One build or one frame. All work that counts happens inside marks of `log`, at most one mark
   /// of each phase; the operation's time is the sum of its phases.
   virtual void operation(PhaseLog& log) = 0;
+
+  /// The phases that can be run alone between operations, any number of times and in any order:
+  /// what attribution by regression varies. Empty if there are none.
+  [[nodiscard]] virtual std::vector<Phase> separable() const { return {}; }
+  /// Runs one of them, inside one mark of `log`.
+  virtual void run_alone(Phase phase, PhaseLog& log) {
+    (void)phase;
+    (void)log;
+  }
 
   /// Figures of the state after the last operation, always with the same names in the same order.
   /// `mean` is the mean time of each phase an operation; 0 where it did not happen.

@@ -14,5 +14,11 @@ void add_info_command(CLI::App& app, ExitCode& result);
 void add_verify_command(CLI::App& app, ExitCode& result);
 void add_profile_command(CLI::App& app, ExitCode& result);
 void add_render_command(CLI::App& app, ExitCode& result);
+void add_study_command(CLI::App& app, ExitCode& result);
+void add_doctor_command(CLI::App& app, ExitCode& result);
+void add_battery_command(CLI::App& app, ExitCode& result);
+void add_compare_command(CLI::App& app, ExitCode& result);
+void add_model_command(CLI::App& app, ExitCode& result);
+void add_attach_command(CLI::App& app, ExitCode& result);
 
 }  // namespace encore::app

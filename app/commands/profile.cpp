@@ -21,18 +21,16 @@ void add_profile_options(CLI::App& command, ProfileOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command
-      .add_option("--test", options.tests,
-                  "build (a loop of builds, of updates with --policy refit), static (one build, "
-                  "then frames), dynamic (animate, build or update, render); several separated by "
-                  "commas; default: all that apply")
+      .add_option(
+          "--test", options.tests,
+          "build (a loop of builds, of updates with --policy refit), static (one build, "
+          "then frames), dynamic (animate, build or update, render), forced (the same though "
+          "nothing moves); several separated by commas; default: the first three that apply")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_option("--size", options.size, "Picture: a side or WIDTHxHEIGHT (default 256)");
-  command
-      .add_option("--seconds", options.seconds,
-                  "Seconds to measure each configuration, at least three operations (default "
-                  "1.5); longer narrows the confidence intervals")
-      ->check(CLI::Range(0.0, 1e6));
+  add_plan_options(command, options.measuring);
+  add_source_options(command, options.measuring);
   command.add_option("--out,-o", options.out,
                      "New or empty folder for the session; default: one in "
                      "$XDG_DATA_HOME/encore/sessions (~/.local/share)");
@@ -54,8 +52,9 @@ void add_profile_command(CLI::App& app, ExitCode& result) {
   command->footer(
       "Before a structure is measured, a sample of its hits is compared with brute force; exit\n"
       "code 6 if they differ. Ctrl+C keeps and prints what was measured so far (exit code 130).\n"
-      "The session folder holds session.toml, frames.csv, summary.csv and samples.csv; see\n"
-      "docs/session-format.md.");
+      "The session folder holds session.toml and CSV files; see docs/session-format.md. Joules "
+      "come\n"
+      "from the sensors that 'encore doctor' lists; how far to trust them: docs/measuring.md.");
   command->callback([options, &result] {
     Terminal terminal(options->quiet);
     const ProfileResult profile = run_profile(*options, standard_tools(), interrupted, terminal);

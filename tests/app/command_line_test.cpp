@@ -16,7 +16,8 @@ using test::contains;
 TEST(CommandLine, HelpExplainsEveryCommand) {
   const ProgramResult all = run_encore({"--help"});
   EXPECT_EQ(all.exit_code, 0);
-  for (const char* command : {"profile", "render", "verify", "info", "scenes"}) {
+  for (const char* command : {"profile", "study", "render", "verify", "info", "scenes", "doctor",
+                              "battery", "compare", "model"}) {
     EXPECT_TRUE(contains(all.out, command)) << command;
     const ProgramResult one = run_encore({command, "--help"});
     EXPECT_EQ(one.exit_code, 0) << command;

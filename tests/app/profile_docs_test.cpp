@@ -1,5 +1,7 @@
+#include "app/machine_log.h"
 #include "app/workloads.h"
 #include "energy/session_columns.h"
+#include "energy/session_energy_columns.h"
 #include "energy/session_toml.h"
 #include "tests/app/profile_fakes.h"
 #include "tests/support/files.h"
@@ -33,12 +35,19 @@ TEST(SessionFormat, DocumentsExactlyTheColumnsThatAreWritten) {
   EXPECT_EQ(documented("samples.csv"), energy::sample_header());
   EXPECT_EQ(documented("frames.csv"), energy::frame_header(columns));
   EXPECT_EQ(documented("summary.csv"), energy::summary_header(columns));
+  EXPECT_EQ(documented("phases.csv"), energy::phase_header(columns));
+  EXPECT_EQ(documented("convergence.csv"), energy::convergence_header(columns));
+  EXPECT_EQ(documented("windows.csv"), energy::window_header(columns));
+  EXPECT_EQ(documented("machine.csv"), machine_log_header());
+  EXPECT_EQ(documented("events.csv"), energy::event_header());
 }
 
 TEST(SessionFormat, DocumentsEveryKeyOfTheSessionFile) {
   // Give every optional key a value, so that all are written.
   energy::SessionInfo info;
-  info.machine = {"cpu", 2, 1, 3, "os", "kernel", "governor", true, "compiler", "type"};
+  info.machine = {"cpu", 2,          1,         3,        "os",   "kernel", "governor",
+                  true,  "compiler", "type",    "commit", "0x1",  800.0,    3e3,
+                  true,  40.0,       "battery", "docker", {"gpu"}};
   info.settings = {{"memory", "pool"}};
   const TemporaryFolder folder;
   energy::write_session_toml(folder.path() / "session.toml", info);

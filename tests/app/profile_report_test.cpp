@@ -18,7 +18,7 @@ energy::SummaryRow row_of(const std::string& test) {
   for (const std::string& column : configuration_columns()) {
     frame.configuration.push_back({column, column == "test" ? test : "7"});
   }
-  frame.configuration[0].value = "a \"quoted\" scene";
+  frame.configuration[1].value = "a \"quoted\" scene";
   frame.operations = 2;
   const Phase phase = test == "build" ? Phase::build : Phase::render;
   frame.phases[phase] = energy::Seconds(0.012);

@@ -39,7 +39,8 @@ class Profile : public testing::Test {
  protected:
   Profile() {
     options.quiet = true;
-    options.seconds = 0.0;
+    options.measuring.seconds = 0.0;
+    options.measuring.sources = {"none"};  // whatever this machine has
     options.size = "16x8";
     options.scenes = {"triangle"};
     options.structures = {"brute", "bvh-median"};
@@ -201,8 +202,8 @@ TEST(ProfileCommand, MeasuresASampleSceneFromTheCommandLine) {
   ExitCode code = ExitCode::failure;
   add_profile_command(app, code);
   testing::internal::CaptureStdout();
-  app.parse("profile --quiet --json --seconds 0.01 --size 32 --threads 1 --out " + out +
-            " triangle");
+  app.parse("profile --quiet --json --source none --seconds 0.01 --size 32 --threads 1 --out " +
+            out + " triangle");
   const std::string json = testing::internal::GetCapturedStdout();
   EXPECT_EQ(code, ExitCode::ok);
   EXPECT_TRUE(JsonChecker(json).valid()) << json;
@@ -219,7 +220,8 @@ TEST(ProfileCommand, MeasuresAMovingSceneUnderEveryPolicy) {
   add_profile_command(app, code);
   testing::internal::CaptureStdout();
   app.parse(
-      "profile toys --quiet --seconds 0.01 --size 16 --structure bvh-median,grid-box --test "
+      "profile toys --quiet --source none --seconds 0.01 --size 16 --structure bvh-median,grid-box "
+      "--test "
       "dynamic --policy rebuild,refit,static --out " +
       out);
   testing::internal::GetCapturedStdout();
@@ -227,7 +229,7 @@ TEST(ProfileCommand, MeasuresAMovingSceneUnderEveryPolicy) {
   const energy::Session session = energy::read_session(out);
   ASSERT_EQ(session.summaries.size(), 3U + 2U) << "a grid's refit is its rebuild";
   for (const auto& row : session.summaries) {
-    const std::string& policy = row.configuration[3].value;
+    const std::string& policy = row.configuration[4].value;
     EXPECT_EQ(row.phase_counts[energy::Phase::build], policy == "rebuild" ? row.operations : 0);
     EXPECT_EQ(row.phase_counts[energy::Phase::update], policy == "refit" ? row.operations : 0);
   }
@@ -240,7 +242,7 @@ TEST(ProfileCommand, InterruptGivesItsExitCode) {
   add_profile_command(app, code);
   interrupted = true;
   testing::internal::CaptureStdout();
-  app.parse("profile triangle --quiet --out " + (folder.path() / "s").string());
+  app.parse("profile triangle --quiet --source none --out " + (folder.path() / "s").string());
   const std::string text = testing::internal::GetCapturedStdout();
   interrupted = false;
   EXPECT_EQ(code, ExitCode::interrupted);

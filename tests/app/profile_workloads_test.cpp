@@ -18,14 +18,19 @@ class ProfileWorkloads : public testing::Test {
   energy::Measurement measure(TestKind test, Policy policy,
                               std::shared_ptr<const scene::Scene> scene,
                               std::uint64_t operations = 7) {
-    const WorkloadSpec spec{std::move(scene), {}, policy, test, {8, 4}, 1};
+    WorkloadSpec spec;
+    spec.scene = std::move(scene);
+    spec.policy = policy;
+    spec.test = test;
+    spec.size = {8, 4};
+    spec.threads = 1;
     const WorkloadTools tools = fakes.tools();
     workload = make_workload(spec, tools);
     energy::Plan plan;
     plan.warm_up = plan.run = energy::Seconds(0);
     plan.warm_up_operations = 0;
     plan.min_operations = plan.max_operations = operations;
-    return energy::run(*workload, plan, clock, clock.now(), never, {});
+    return energy::run(*workload, plan, {clock, clock.now(), never, {}, nullptr, {}, nullptr});
   }
 
   FakeTools fakes;

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 namespace encore::energy {
 namespace {
 
@@ -70,6 +74,95 @@ TEST(MachineCard, WhatCannotBeReadIsMissingNotZero) {
   EXPECT_FALSE(m.kernel);
   EXPECT_FALSE(m.governor);
   EXPECT_FALSE(m.virtual_machine) << "unknown is neither yes nor no";
+  EXPECT_FALSE(m.microcode);
+  EXPECT_FALSE(m.cpu_min_mhz);
+  EXPECT_FALSE(m.cpu_max_mhz);
+  EXPECT_FALSE(m.boost);
+  EXPECT_FALSE(m.cpu_temperature_c);
+  EXPECT_FALSE(m.power_supply);
+  EXPECT_FALSE(m.container);
+  EXPECT_TRUE(m.gpus.empty());
+}
+
+TEST(MachineCard, KnowsTheClocksOfAllCores) {
+  const TemporaryFolder root;
+  const std::string cpus = "sys/devices/system/cpu/";
+  root.write(cpus + "cpu0/cpufreq/cpuinfo_min_freq", "800000\n");
+  root.write(cpus + "cpu0/cpufreq/cpuinfo_max_freq", "5200000\n");
+  root.write(cpus + "cpu9/cpufreq/cpuinfo_min_freq", "400000\n");
+  root.write(cpus + "cpu9/cpufreq/cpuinfo_max_freq", "3900000\n");
+  root.write(cpus + "intel_pstate/no_turbo", "1\n");
+  root.write("proc/cpuinfo", "processor\t: 0\nmicrocode\t: 0x2c\n");
+  const Machine m = read_machine(root.path());
+  EXPECT_EQ(m.cpu_min_mhz, 400.0);
+  EXPECT_EQ(m.cpu_max_mhz, 5200.0);
+  EXPECT_EQ(m.boost, false);
+  EXPECT_EQ(m.microcode, "0x2c");
+  const TemporaryFolder other;
+  other.write(cpus + "cpufreq/boost", "1\n");
+  EXPECT_EQ(read_machine(other.path()).boost, true);
+}
+
+TEST(MachineCard, KnowsWhatFeedsTheMachineAndHowWarmItIs) {
+  const TemporaryFolder root;
+  root.write("sys/class/power_supply/AC/type", "Mains\n");
+  root.write("sys/class/power_supply/AC/online", "1\n");
+  root.write("sys/class/thermal/thermal_zone0/type", "x86_pkg_temp\n");
+  root.write("sys/class/thermal/thermal_zone0/temp", "48500\n");
+  const Machine m = read_machine(root.path());
+  EXPECT_EQ(m.power_supply, "mains");
+  EXPECT_EQ(m.cpu_temperature_c, 48.5);
+  const std::filesystem::path fixtures(ENCORE_FIXTURES);
+  EXPECT_EQ(read_machine(fixtures / "sysfs" / "bat_power").power_supply, "battery");
+}
+
+TEST(MachineCard, NoticesContainers) {
+  const TemporaryFolder docker;
+  docker.write(".dockerenv", "");
+  EXPECT_EQ(read_machine(docker.path()).container, "docker");
+  const TemporaryFolder kubernetes;
+  kubernetes.write("proc/1/cgroup", "12:cpu:/kubepods/burstable/pod1\n");
+  EXPECT_EQ(read_machine(kubernetes.path()).container, "kubepods");
+  const TemporaryFolder plain;
+  plain.write("proc/1/cgroup", "0::/init.scope\n");
+  EXPECT_FALSE(read_machine(plain.path()).container);
+}
+
+/// A graphics card of the kernel's drm class with the files of its device.
+void write_card(const TemporaryFolder& root, const std::string& card, const std::string& address,
+                const std::string& driver) {
+  const std::string device = "sys/bus/pci/devices/" + address;
+  root.write("sys/bus/pci/drivers/" + driver + "/uevent", "");
+  root.write("sys/class/drm/" + card + "/uevent", "");
+  root.write(device + "/uevent", "");
+  std::filesystem::create_directory_symlink("../../drivers/" + driver,
+                                            root.path() / device / "driver");
+  std::filesystem::create_directory_symlink("../../../../" + device,
+                                            root.path() / "sys/class/drm" / card / "device");
+}
+
+TEST(MachineCard, NamesTheGraphicsCards) {
+  const TemporaryFolder root;
+  write_card(root, "card0", "0000:00:02.0", "i915");
+  root.write("sys/bus/pci/devices/0000:00:02.0/vendor", "0x8086\n");
+  root.write("sys/bus/pci/devices/0000:00:02.0/device", "0x9a49\n");
+  write_card(root, "card1", "0000:03:00.0", "amdgpu");
+  root.write("sys/bus/pci/devices/0000:03:00.0/product_name", "Radeon of Tests\n");
+  write_card(root, "card2", "0000:65:00.0", "nvidia");
+  root.write("sys/class/drm/card0-DP-1/status", "connected\n");
+  root.write("sys/class/drm/renderD128/uevent", "");
+  root.write("proc/driver/nvidia/gpus/0000:65:00.0/information",
+             "Model: \t\t NVIDIA Test 9000\nIRQ:   \t\t 120\n");
+  root.write("proc/driver/nvidia/version",
+             "NVRM version: NVIDIA UNIX x86_64 Kernel Module  550.54.14  Thu Feb 22\n");
+  const std::vector<std::string> unknown{"PCI 8086:9a49 (i915)", "Radeon of Tests (amdgpu)",
+                                         "NVIDIA Test 9000 (nvidia 550.54.14)"};
+  EXPECT_EQ(read_machine(root.path()).gpus, unknown);
+
+  root.write("usr/share/misc/pci.ids",
+             "# makers\n1002  Other Maker\n\t9a49  Not This\n8086  Some Maker\n\t9a40  Nor "
+             "This\n\t9a49  Chip [Brand]\n\t\t1028 0001  Board\n");
+  EXPECT_EQ(read_machine(root.path()).gpus.at(0), "Some Maker Chip [Brand] (i915)");
 }
 
 TEST(CommandLine, WordsWithSpecialCharactersAreQuoted) {

@@ -1,6 +1,6 @@
 #include "energy/runner.h"
 
-#include "tests/energy/fake_clock.h"
+#include "tests/support/fake_clock.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,10 @@ class FakeWorkload final : public Workload {
 
 class Runner : public testing::Test {
  protected:
-  Measurement run_it() { return run(workload, plan, clock, Seconds(1000.0), stop, observer); }
+  Measurement run_it() {
+    return run(workload, plan,
+               RunContext{clock, Seconds(1000.0), stop, observer, nullptr, {}, nullptr});
+  }
 
   static Plan test_plan() {
     Plan plan;
@@ -154,7 +157,7 @@ TEST_F(Runner, TellsRowsAsTheyComeAndProgressUpToTheEnd) {
   std::vector<FrameRow> told;
   double progress = -1.0;
   observer.on_row = [&](const FrameRow& row) { told.push_back(row); };
-  observer.on_progress = [&](double share) {
+  observer.on_progress = [&](double share, std::string_view) {
     EXPECT_GE(share, progress);
     EXPECT_LE(share, 1.0);
     progress = share;

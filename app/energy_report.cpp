@@ -1,0 +1,184 @@
+#include "app/energy_report.h"
+
+#include "app/profile_table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace encore::app {
+
+namespace {
+
+using energy::PhaseRow;
+using energy::SummaryRow;
+using Align = TextTable::Align;
+
+constexpr std::string_view kMissing = "unavailable";
+
+std::string value_of(const std::vector<energy::KeyValue>& configuration, std::string_view key) {
+  for (const energy::KeyValue& part : configuration) {
+    if (part.key == key) return part.value;
+  }
+  return {};
+}
+
+std::optional<double> counter_of(const SummaryRow& row, std::string_view name) {
+  for (const energy::Counter& counter : row.counters) {
+    if (counter.name == name) return counter.value;
+  }
+  return std::nullopt;
+}
+
+template <class Unit>
+std::optional<double> plain(const std::optional<Unit>& quantity) {
+  if (!quantity) return std::nullopt;
+  return quantity->value;
+}
+
+/// Gross energy of something that cannot be told apart is missing; what has none stays blank.
+std::string energy(const std::optional<energy::Joules>& value,
+                   const std::optional<energy::Joules>& half) {
+  return value ? joules_text(value->value, plain(half)) : std::string(kMissing);
+}
+std::string power(const std::optional<energy::Watts>& value,
+                  const std::optional<energy::Watts>& half) {
+  return value ? with_uncertainty(value->value, plain(half)) : std::string(kMissing);
+}
+std::string derived(const std::optional<double>& joules) {
+  return joules ? joules_text(*joules, std::nullopt) : std::string();
+}
+
+/// What tells a configuration apart, in the first columns of both tables.
+void add_configuration_columns(TextTable& table) {
+  for (const char* title : {"scene", "test", "structure", "policy", "size", "repeat"}) {
+    table.add_column(title, Align::left);
+  }
+}
+std::vector<std::string> configuration_cells(const std::vector<energy::KeyValue>& configuration,
+                                             bool repeats) {
+  const std::string width = value_of(configuration, "width");
+  return {value_of(configuration, "scene"),
+          value_of(configuration, "test"),
+          value_of(configuration, "structure"),
+          value_of(configuration, "policy"),
+          width.empty() ? std::string() : width + "x" + value_of(configuration, "height"),
+          repeats ? value_of(configuration, "repeat") : std::string()};
+}
+
+bool has_repeats(const ProfileReport& report) {
+  for (const SummaryRow& row : report.rows) {
+    if (value_of(row.configuration, "repeat") != "1") return true;
+  }
+  return false;
+}
+
+std::string configuration_table(const ProfileReport& report) {
+  TextTable table;
+  add_configuration_columns(table);
+  for (const char* title : {"watts ± 95 % CI", "idle watts", "an operation", "net of idle",
+                            "a Mray", "a pixel", "energy x delay (Js)", "°C", "throttled"}) {
+    table.add_column(title);
+  }
+  const bool repeats = has_repeats(report);
+  for (const SummaryRow& row : report.rows) {
+    auto cells = configuration_cells(row.configuration, repeats);
+    const auto delay = counter_of(row, "energy_delay_js");
+    for (std::string cell :
+         {power(row.watts, row.watts_ci95),
+          row.idle_watts ? power(row.idle_watts, row.idle_watts_ci95) : std::string(),
+          energy(row.joules, row.joules_ci95),
+          row.idle_watts ? energy(row.net_joules, row.net_joules_ci95) : std::string(),
+          derived(counter_of(row, "joules_per_mray")), derived(counter_of(row, "joules_per_pixel")),
+          delay ? fmt::format("{:.3g}", *delay) : std::string(),
+          row.temperature_c ? fmt::format("{:.0f}", *row.temperature_c) : std::string(),
+          row.throttle_events.value_or(0) > 0 ? fmt::format("{:.0f}", *row.throttle_events)
+                                              : std::string()}) {
+      cells.push_back(std::move(cell));
+    }
+    table.add_row(std::move(cells));
+  }
+  return table.empty() ? std::string() : "\nEnergy\n" + table.text();
+}
+
+std::string phase_table(const ProfileReport& report) {
+  TextTable table;
+  add_configuration_columns(table);
+  table.add_column("phase", Align::left);
+  for (const char* title : {"watts ± 95 % CI", "an operation", "net of idle"}) {
+    table.add_column(title);
+  }
+  table.add_column("told by", Align::left);
+  const bool repeats = has_repeats(report);
+  for (const PhaseRow& row : report.phases) {
+    if (row.phase == "all" || row.phase == "idle") continue;
+    auto cells = configuration_cells(row.configuration, repeats);
+    const bool remainder = row.phase == "remainder";
+    for (std::string cell :
+         {row.phase, remainder ? std::string() : power(row.watts, row.watts_ci95),
+          energy(row.joules, row.joules_ci95),
+          row.net_joules ? energy(row.net_joules, row.net_joules_ci95) : std::string(),
+          remainder ? std::string("what is left") : row.method}) {
+      cells.push_back(std::move(cell));
+    }
+    table.add_row(std::move(cells));
+  }
+  return table.empty() ? std::string() : "\nEnergy by phase\n" + table.text();
+}
+
+/// Sentences, each once, with the configurations that they hold for counted.
+std::string notes_text(const ProfileReport& report) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;
+  const auto add = [&](const std::string& sentence, const std::string& name) {
+    for (auto& [known, names] : notes) {
+      if (known != sentence) continue;
+      names.push_back(name);
+      return;
+    }
+    notes.push_back({sentence, {name}});
+  };
+  for (const ProfileReport::Notes& of : report.notes) {
+    for (const std::string& sentence : of.sentences) add(sentence, of.name);
+  }
+  for (const PhaseRow& row : report.phases) {
+    if (row.note.empty()) continue;
+    add(row.phase + ": " + row.note, value_of(row.configuration, "scene") + ", " +
+                                         value_of(row.configuration, "structure") + ", " +
+                                         value_of(row.configuration, "test"));
+  }
+  std::string text;
+  for (const auto& [sentence, names] : notes) {
+    text += fmt::format("- {} ({}{})\n", sentence, names.front(),
+                        names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "");
+  }
+  return text.empty() ? text : "\nNotes\n" + text;
+}
+
+}  // namespace
+
+std::string joules_text(double joules, std::optional<double> half_width) {
+  constexpr std::pair<double, std::string_view> kUnits[] = {
+      {1e3, "kJ"}, {1.0, "J"}, {1e-3, "mJ"}, {1e-6, "µJ"}};
+  double scale = 1e-9;
+  std::string_view unit = "nJ";
+  for (const auto& [size, name] : kUnits) {
+    if (std::abs(joules) < size) continue;
+    scale = size;
+    unit = name;
+    break;
+  }
+  if (!half_width) return fmt::format("{:.4g} {}", joules / scale, unit);
+  return with_uncertainty(joules / scale, *half_width / scale) + " " + std::string(unit);
+}
+
+std::string energy_text(const ProfileReport& report) {
+  if (!report.sampling) return {};
+  return configuration_table(report) + phase_table(report) + notes_text(report) +
+         fmt::format("\nReading the sensors took {:.3f} % of one core.\n",
+                     100.0 * report.sampling->share());
+}
+
+}  // namespace encore::app

@@ -1,0 +1,111 @@
+#include "app/energy_rows.h"
+
+#include <string_view>
+
+namespace encore::app {
+
+namespace {
+
+using energy::Attribution;
+using energy::Joules;
+using energy::PhaseRow;
+using energy::Seconds;
+using energy::SummaryRow;
+using energy::Uncertain;
+using energy::Watts;
+
+/// Puts a figure and its half-width, divided by `count`, into two places.
+template <class Unit>
+void set(const std::optional<Uncertain>& figure, double count, std::optional<Unit>& value,
+         std::optional<Unit>& half_width) {
+  if (!figure || !(count > 0)) return;
+  value = Unit(figure->value / count);
+  half_width = Unit(figure->half_width / count);
+}
+
+double counter_of(const SummaryRow& row, std::string_view name) {
+  for (const energy::Counter& counter : row.counters) {
+    if (counter.name == name) return counter.value.value_or(0.0);
+  }
+  return 0.0;
+}
+
+void set_counter(SummaryRow& row, std::string_view name, double value) {
+  for (energy::Counter& counter : row.counters) {
+    if (counter.name != name) continue;
+    counter.value = value;
+    counter.unavailable = false;
+  }
+}
+
+}  // namespace
+
+void add_energy(const Attribution& total, SummaryRow& row) {
+  set(total.watts, 1.0, row.watts, row.watts_ci95);
+  set(total.per_operation, 1.0, row.joules, row.joules_ci95);
+  if (total.watts) row.watts_ci95_without_gain = Watts(total.watts->statistical);
+  if (total.per_operation) {
+    row.joules_ci95_without_gain = Joules(total.per_operation->statistical);
+  }
+  set(total.net, total.operations, row.net_joules, row.net_joules_ci95);
+  if (total.idle) {
+    row.idle_watts = Watts(total.idle->watts.value);
+    row.idle_watts_ci95 = Watts(total.idle->watts.half_width);
+  }
+  if (!row.joules) return;
+  const double rays = counter_of(row, "rays_per_operation");
+  if (rays > 0) {
+    set_counter(row, "joules_per_mray", row.joules->value / rays * 1e6);
+    // One camera ray a pixel.
+    set_counter(row, "joules_per_pixel", row.joules->value / rays);
+  }
+  set_counter(row, "energy_delay_js", row.joules->value * row.mean.value);
+}
+
+std::vector<PhaseRow> phase_rows(const Attribution& attribution, const std::string& source,
+                                 energy::Origin origin,
+                                 const std::vector<energy::KeyValue>& configuration) {
+  std::vector<PhaseRow> rows;
+  const double operations = attribution.operations;
+  const auto start = [&](std::string phase) -> PhaseRow& {
+    PhaseRow row;
+    row.configuration = configuration;
+    row.source = source;
+    row.phase = std::move(phase);
+    row.operations = operations;
+    rows.push_back(std::move(row));
+    return rows.back();
+  };
+  for (const energy::PhaseEnergy& phase : attribution.phases) {
+    PhaseRow& row = start(phase.column);
+    row.method = std::string(energy::to_string(phase.method));
+    row.seconds = phase.busy;
+    set(phase.watts, 1.0, row.watts, row.watts_ci95);
+    set(phase.gross, operations, row.joules, row.joules_ci95);
+    set(phase.net, operations, row.net_joules, row.net_joules_ci95);
+    row.note = phase.reason;
+  }
+  if (attribution.idle) {
+    PhaseRow& row = start("idle");
+    row.seconds = attribution.idle->length;
+    row.operations.reset();
+    set(std::optional(attribution.idle->watts), 1.0, row.watts, row.watts_ci95);
+    if (attribution.idle->drifted) row.note = "the idle power drifted";
+  }
+  if (attribution.remainder) {
+    PhaseRow& row = start("remainder");
+    set(attribution.remainder, operations, row.joules, row.joules_ci95);
+  }
+  PhaseRow& all = start("all");
+  all.seconds = attribution.length;
+  set(attribution.watts, 1.0, all.watts, all.watts_ci95);
+  set(attribution.gross, operations, all.joules, all.joules_ci95);
+  set(attribution.net, operations, all.net_joules, all.net_joules_ci95);
+  for (PhaseRow& row : rows) {
+    const bool known = row.watts || row.joules;
+    row.origin = known ? origin : energy::Origin::unavailable;
+  }
+  return rows;
+}
+
+}  // namespace encore::app

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "app/measuring_options.h"
+#include "app/profile_options.h"
+#include "scene/diagnostics.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace encore::app {
+
+/// A part of a study: every combination of its lists is a test.
+struct StudyGroup {
+  std::string name;
+  std::string place;  ///< "file:line:column"
+  std::string device = "cpu";
+  std::vector<std::string> scenes;
+  std::vector<std::string> structures;
+  std::vector<std::string> policies;
+  std::vector<std::string> tests;
+  std::vector<std::string> sizes;         ///< "256" or "640x480"
+  std::vector<std::string> memory;        ///< "pool", "malloc"
+  std::vector<std::string> update_cases;  ///< empty: real
+  std::vector<std::string> settings;      ///< "key=value"
+  int threads = 0;
+};
+
+/// A study as its file describes it: what the thesis' description files and batch files held.
+struct Study {
+  std::string name;
+  std::string file;
+  std::string digest;  ///< of the file's text: a study that is gone on with must be the same
+  MeasuringOptions measuring;
+  std::vector<std::string> search_path;  ///< where scenes look for models
+  std::vector<StudyGroup> groups;
+};
+
+/// Reads a study (docs/studies.md tells the keys). Every word is checked. Throws scene::InputError
+/// "file:line:column: ..."; unknown keys are errors, too, since a study may run for days.
+Study read_study(const std::filesystem::path& file);
+Study parse_study(std::string_view text, const std::string& file);
+
+}  // namespace encore::app

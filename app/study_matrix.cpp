@@ -1,0 +1,108 @@
+#include "app/study_matrix.h"
+
+#include "app/exit_code.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace encore::app {
+
+namespace {
+
+/// Scenes by their name, each loaded once.
+class SceneCache {
+ public:
+  SceneCache(const CommonOptions& options, Terminal& terminal)
+      : options_(options), terminal_(terminal) {}
+
+  std::shared_ptr<const scene::Scene> operator()(const std::string& name) {
+    auto& scene = scenes_[name];
+    if (!scene) {
+      scene = std::make_shared<const scene::Scene>(open_scene(name, options_, terminal_));
+    }
+    return scene;
+  }
+
+ private:
+  const CommonOptions& options_;
+  Terminal& terminal_;
+  std::map<std::string, std::shared_ptr<const scene::Scene>> scenes_;
+};
+
+bool renders(const std::string& test) {
+  return test != "build";
+}
+
+/// The tests of one group with one combination of what ProfileOptions holds one of.
+ProfileOptions options_of(const StudyGroup& group, const Study& study, const std::string& test) {
+  ProfileOptions options;
+  options.quiet = true;
+  options.scenes = group.scenes;
+  options.search_path = study.search_path;
+  options.structures = group.structures;
+  options.policies = group.policies;
+  options.tests = {test};
+  options.settings = group.settings;
+  options.threads = group.threads;
+  return options;
+}
+
+}  // namespace
+
+std::size_t StudyMatrix::described() const {
+  std::size_t sum = tests.size();
+  for (const LeftOut& left : left_out) sum += left.tests;
+  return sum;
+}
+
+StudyMatrix spell_out(const Study& study, const WorkloadTools& tools, Terminal& terminal) {
+  CommonOptions common;
+  common.search_path = study.search_path;
+  SceneCache cache(common, terminal);
+  const SceneOpener open = [&](const std::string& name) { return cache(name); };
+
+  StudyMatrix matrix;
+  for (const StudyGroup& group : study.groups) {
+    std::vector<WorkloadSpec> specs;
+    const std::vector<std::string> all{"build", "static", "dynamic"};
+    for (const std::string& test : group.tests.empty() ? all : group.tests) {
+      ProfileOptions options = options_of(group, study, test);
+      // A build has no picture, and only a refit has an update case.
+      const std::vector<std::string> no_size{"256"};
+      for (const std::string& size : renders(test) ? group.sizes : no_size) {
+        for (const std::string& memory : group.memory) {
+          for (const std::string& update_case : group.update_cases) {
+            options.size = size;
+            options.memory = memory;
+            options.update_case = update_case;
+            try {
+              for (WorkloadSpec& spec : list_workloads(options, tools, terminal, open)) {
+                spec.group = group.name;
+                specs.push_back(std::move(spec));
+              }
+            } catch (const scene::InputError& error) {
+              throw scene::InputError(
+                  fmt::format("{}: group {}: {}", group.place, group.name, error.what()));
+            } catch (const UsageError& error) {
+              // What a test cannot be applied to is told, and the rest goes on.
+              matrix.left_out.push_back({group.name, 0, error.what()});
+            }
+          }
+        }
+      }
+    }
+    if (group.device != "cpu") {
+      matrix.left_out.push_back(
+          {group.name, specs.size(),
+           fmt::format("device {} is not in this version of the program", group.device)});
+      continue;
+    }
+    for (WorkloadSpec& spec : specs) matrix.tests.push_back(std::move(spec));
+  }
+  return matrix;
+}
+
+}  // namespace encore::app
