@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds a release and profiles a scene: the default one, or what is named.
-#   ./run.sh                     profile the default scene
+#   ./run.sh                     profile the default scene, quickly
 #   ./run.sh profile bunny.ply   any command of the program, with its options
 set -euo pipefail
 root=$(cd "$(dirname "$0")" && pwd)
@@ -9,6 +9,6 @@ root=$(cd "$(dirname "$0")" && pwd)
 "$root/scripts/build.sh" release encore
 
 if [ $# -eq 0 ]; then
-  set -- profile
+  set -- profile --plan quick
 fi
 exec "$root/build/release/app/encore" "$@"

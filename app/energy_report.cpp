@@ -1,6 +1,8 @@
 #include "app/energy_report.h"
 
+#include "app/configuration_cells.h"
 #include "app/profile_table.h"
+#include "app/session_input.h"
 
 #include <fmt/format.h>
 
@@ -18,13 +20,6 @@ using energy::SummaryRow;
 using Align = TextTable::Align;
 
 constexpr std::string_view kMissing = "unavailable";
-
-std::string value_of(const std::vector<energy::KeyValue>& configuration, std::string_view key) {
-  for (const energy::KeyValue& part : configuration) {
-    if (part.key == key) return part.value;
-  }
-  return {};
-}
 
 std::optional<double> counter_of(const SummaryRow& row, std::string_view name) {
   for (const energy::Counter& counter : row.counters) {
@@ -52,40 +47,16 @@ std::string derived(const std::optional<double>& joules) {
   return joules ? joules_text(*joules, std::nullopt) : std::string();
 }
 
-/// What tells a configuration apart, in the first columns of both tables.
-void add_configuration_columns(TextTable& table) {
-  for (const char* title : {"scene", "test", "structure", "policy", "size", "repeat"}) {
-    table.add_column(title, Align::left);
-  }
-}
-std::vector<std::string> configuration_cells(const std::vector<energy::KeyValue>& configuration,
-                                             bool repeats) {
-  const std::string width = value_of(configuration, "width");
-  return {value_of(configuration, "scene"),
-          value_of(configuration, "test"),
-          value_of(configuration, "structure"),
-          value_of(configuration, "policy"),
-          width.empty() ? std::string() : width + "x" + value_of(configuration, "height"),
-          repeats ? value_of(configuration, "repeat") : std::string()};
-}
-
-bool has_repeats(const ProfileReport& report) {
-  for (const SummaryRow& row : report.rows) {
-    if (value_of(row.configuration, "repeat") != "1") return true;
-  }
-  return false;
-}
-
 std::string configuration_table(const ProfileReport& report) {
   TextTable table;
-  add_configuration_columns(table);
+  ConfigurationCells::add_columns(table);
   for (const char* title : {"watts ± 95 % CI", "idle watts", "an operation", "net of idle",
                             "a Mray", "a pixel", "energy x delay (Js)", "°C", "throttled"}) {
     table.add_column(title);
   }
-  const bool repeats = has_repeats(report);
+  const ConfigurationCells configurations(report.rows);
   for (const SummaryRow& row : report.rows) {
-    auto cells = configuration_cells(row.configuration, repeats);
+    auto cells = configurations.cells(row.configuration);
     const auto delay = counter_of(row, "energy_delay_js");
     for (std::string cell :
          {power(row.watts, row.watts_ci95),
@@ -106,16 +77,18 @@ std::string configuration_table(const ProfileReport& report) {
 
 std::string phase_table(const ProfileReport& report) {
   TextTable table;
-  add_configuration_columns(table);
+  ConfigurationCells::add_columns(table);
   table.add_column("phase", Align::left);
   for (const char* title : {"watts ± 95 % CI", "an operation", "net of idle"}) {
     table.add_column(title);
   }
   table.add_column("told by", Align::left);
-  const bool repeats = has_repeats(report);
+  const ConfigurationCells configurations(report.rows);
   for (const PhaseRow& row : report.phases) {
     if (row.phase == "all" || row.phase == "idle") continue;
-    auto cells = configuration_cells(row.configuration, repeats);
+    // Where one phase is the whole, nothing is left.
+    if (row.phase == "remainder" && (!row.joules || row.joules->value == 0.0)) continue;
+    auto cells = configurations.cells(row.configuration);
     const bool remainder = row.phase == "remainder";
     for (std::string cell :
          {row.phase, remainder ? std::string() : power(row.watts, row.watts_ci95),
@@ -145,9 +118,7 @@ std::string notes_text(const ProfileReport& report) {
   }
   for (const PhaseRow& row : report.phases) {
     if (row.note.empty()) continue;
-    add(row.phase + ": " + row.note, value_of(row.configuration, "scene") + ", " +
-                                         value_of(row.configuration, "structure") + ", " +
-                                         value_of(row.configuration, "test"));
+    add(row.phase + ": " + row.note, configuration_name(row.configuration));
   }
   std::string text;
   for (const auto& [sentence, names] : notes) {

@@ -83,6 +83,7 @@ std::unique_ptr<PowerSource> open_simulated(const std::string& preset, const std
     const energy::BusyTimes busy{live.busy(time), {}};
     return energy::modelled_energy(model, time, busy).value_or(energy::Joules(0));
   };
+  settings.info.gain_uncertainty = 0.0;  // its truth is known
   settings.info.provenance.detail =
       "a simulated sensor on a simulated machine: " + energy::describe(model);
   return std::make_unique<energy::SimulatedSource>(std::move(settings));

@@ -1,5 +1,6 @@
 #include "app/profile_report.h"
 
+#include "app/configuration_cells.h"
 #include "app/energy_report.h"
 #include "app/json_text.h"
 #include "app/number_text.h"
@@ -20,7 +21,6 @@ namespace {
 
 using energy::Phase;
 using energy::SummaryRow;
-using Align = TextTable::Align;
 
 std::string value_of(const SummaryRow& row, std::string_view key) {
   for (const energy::KeyValue& part : row.configuration) {
@@ -64,9 +64,17 @@ std::string mean_ms(const SummaryRow& row) {
   return with_uncertainty(energy::milliseconds(row.mean), half);
 }
 
+/// A row of cells after those of its configuration.
+void add_row(TextTable& table, std::vector<std::string> cells, std::vector<std::string> more) {
+  cells.insert(cells.end(), std::make_move_iterator(more.begin()),
+               std::make_move_iterator(more.end()));
+  table.add_row(std::move(cells));
+}
+
 std::string build_table(const std::vector<SummaryRow>& rows) {
   TextTable table;
-  for (const char* title : {"scene", "structure", "policy"}) table.add_column(title, Align::left);
+  ConfigurationCells::add_columns(table);
+  const ConfigurationCells configurations(rows);
   for (const char* title :
        {"triangles", "builds", "updates", "ms each ± 95 % CI", "nodes", "leaves", "references",
         "shape", "memory", "allocs", "allocated", "tri-box tests", "SAH cost"}) {
@@ -78,9 +86,9 @@ std::string build_table(const std::vector<SummaryRow>& rows) {
       const std::uint64_t n = row.phase_counts[phase];
       return n > 0 ? std::to_string(n) : std::string();
     };
-    table.add_row(
-        {value_of(row, "scene"), value_of(row, "structure"), value_of(row, "policy"),
-         value_of(row, "triangles"), count(Phase::build), count(Phase::update), mean_ms(row),
+    add_row(
+        table, configurations.cells(row.configuration),
+        {value_of(row, "triangles"), count(Phase::build), count(Phase::update), mean_ms(row),
          figure(counter_of(row, "nodes")), figure(counter_of(row, "leaves")),
          figure(counter_of(row, "references")), shape(row),
          bytes(counter_of(row, "structure_bytes")), figure(counter_of(row, "allocations")),
@@ -92,30 +100,28 @@ std::string build_table(const std::vector<SummaryRow>& rows) {
 
 std::string frame_table(const std::vector<SummaryRow>& rows) {
   TextTable table;
-  for (const char* title : {"scene", "test", "structure", "policy"}) {
-    table.add_column(title, Align::left);
-  }
+  ConfigurationCells::add_columns(table);
+  const ConfigurationCells configurations(rows);
   for (const char* title :
-       {"size", "frames", "ms a frame ± 95 % CI", "frames/s", "animate", "build", "update",
-        "transfer", "render", "builds", "updates", "SAH cost", "Mrays/s", "hits"}) {
+       {"frames", "ms a frame ± 95 % CI", "frames/s", "animate", "build", "update", "transfer",
+        "render", "builds", "updates", "SAH cost", "Mrays/s", "hits"}) {
     table.add_column(title);
   }
   for (const SummaryRow& row : rows) {
     const std::string test = value_of(row, "test");
     if (test == "build") continue;
-    // The number of builds tells something in the dynamic test only.
+    // The number of builds tells nothing where there are none.
     const auto count = [&](Phase phase) {
-      return test == "dynamic" ? std::to_string(row.phase_counts[phase]) : std::string();
+      return test != "static" ? std::to_string(row.phase_counts[phase]) : std::string();
     };
-    table.add_row({value_of(row, "scene"), test, value_of(row, "structure"),
-                   value_of(row, "policy"), value_of(row, "width") + "x" + value_of(row, "height"),
-                   std::to_string(row.phase_counts[Phase::render]), mean_ms(row),
-                   row.mean.value > 0 ? fmt::format("{:.1f}", 1.0 / row.mean.value) : "",
-                   percent(row.shares[Phase::animate]), percent(row.shares[Phase::build]),
-                   percent(row.shares[Phase::update]), percent(row.shares[Phase::transfer]),
-                   percent(row.shares[Phase::render]), count(Phase::build), count(Phase::update),
-                   figure(counter_of(row, "sah_cost"), 1),
-                   figure(counter_of(row, "mrays_per_s"), 3), figure(counter_of(row, "hits"))});
+    add_row(table, configurations.cells(row.configuration),
+            {std::to_string(row.phase_counts[Phase::render]), mean_ms(row),
+             row.mean.value > 0 ? fmt::format("{:.1f}", 1.0 / row.mean.value) : "",
+             percent(row.shares[Phase::animate]), percent(row.shares[Phase::build]),
+             percent(row.shares[Phase::update]), percent(row.shares[Phase::transfer]),
+             percent(row.shares[Phase::render]), count(Phase::build), count(Phase::update),
+             figure(counter_of(row, "sah_cost"), 1), figure(counter_of(row, "mrays_per_s"), 3),
+             figure(counter_of(row, "hits"))});
   }
   return table.empty() ? std::string() : "\nFrames\n" + table.text();
 }

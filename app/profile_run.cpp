@@ -1,6 +1,7 @@
 #include "app/profile_run.h"
 
 #include "app/experiment.h"
+#include "app/number_text.h"
 #include "app/profile_folder.h"
 #include "app/profile_report.h"
 #include "energy/machine.h"
@@ -17,6 +18,17 @@ namespace encore::app {
 namespace {
 
 using energy::SessionState;
+
+/// A run that takes minutes is told of beforehand.
+void tell_duration(const energy::Plan& plan, std::size_t configurations, Terminal& terminal) {
+  constexpr double kWorthTelling = 60.0;
+  const double all = energy::least_duration(plan).value * static_cast<double>(configurations);
+  if (all < kWorthTelling) return;
+  terminal.info(fmt::format(
+      "plan {}: {} configurations, {} in all at least{}", plan.name, configurations,
+      duration_text(all),
+      plan.name == "quick" ? "" : "; --plan quick takes seconds, --seconds sets the time"));
+}
 
 /// What holds for every configuration and so is not a column.
 std::vector<energy::KeyValue> common_settings(const ProfileOptions& options,
@@ -126,6 +138,7 @@ ProfileResult run_profile(const ProfileOptions& options, const WorkloadTools& to
   report.folder = make_session_folder(options.out, info.started_utc, name);
   report.sensor = experiment.info().sensor;
   experiment.open(report.folder);
+  tell_duration(experiment.plan(), specs.size(), terminal);
   try {
     report.state = measure_all(specs, experiment, stop, terminal, report);
   } catch (...) {

@@ -1,6 +1,7 @@
 #include "app/study_file.h"
 
 #include "app/exit_code.h"
+#include "energy/battery_life/battery_toml.h"
 #include "scene/text_suggestion.h"
 #include "scene/toml_reading.h"
 
@@ -11,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -186,7 +188,8 @@ StudyGroup read_group(TomlTable& table) {
   group.update_cases = words(table, "update_cases",
                              one_of("update case", {"real", "best", "average", "worst"}), {""});
   group.settings = words(table, "set", setting_problem);
-  group.threads = static_cast<int>(whole(table, "threads", 0).value_or(0));
+  constexpr std::uint64_t kMostThreads = std::numeric_limits<int>::max();
+  group.threads = static_cast<int>(std::min(whole(table, "threads", 0).value_or(0), kMostThreads));
   refuse_unknown_keys(table);
   return group;
 }
@@ -203,6 +206,13 @@ Study parse_study(std::string_view text, const std::string& file) {
   if (auto plan = root.table("plan")) read_plan(*plan, study.measuring);
   study.measuring.sources = words(root, "source", anything);
   study.measuring.model = root.text("model").value_or("");
+  if (root.has("battery")) {
+    try {
+      (void)energy::parse_battery_toml(text, file);
+    } catch (const energy::BatteryError& error) {
+      throw InputError(error.what());
+    }
+  }
   study.search_path = words(root, "search_path", anything);
   // Relative to the study, so that it means the same wherever it is started from.
   const std::filesystem::path home = std::filesystem::path(file).parent_path();

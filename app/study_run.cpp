@@ -2,6 +2,7 @@
 
 #include "app/experiment.h"
 #include "app/json_text.h"
+#include "app/number_text.h"
 #include "app/profile_folder.h"
 #include "app/profile_report.h"
 #include "app/profile_run.h"
@@ -22,14 +23,6 @@ namespace encore::app {
 namespace {
 
 using energy::SessionState;
-
-/// A duration for people: "12.5 s", "3 min 20 s", "12 h 34 min".
-std::string duration_text(double seconds) {
-  if (seconds < 120) return fmt::format("{:.3g} s", seconds);
-  const auto whole = static_cast<long>(seconds);
-  if (seconds < 7200) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
-}
 
 /// What the command line says goes before the file.
 void merge(MeasuringOptions& into, const MeasuringOptions& from) {

@@ -144,7 +144,12 @@ void CsvWriter::write(const CsvRecord& record) {
     const ssize_t written = ::write(file_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
-      throw SessionError("cannot write " + path_.string() + ": " + std::strerror(errno));
+      const std::string reason = std::strerror(errno);
+      const bool full = errno == ENOSPC || errno == EDQUOT;
+      throw SessionError("cannot write " + path_.string() + ": " + reason +
+                         (full ? "; what was measured so far is kept there. Free some space, or "
+                                 "name another folder with --out"
+                               : ""));
     }
     rest.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -4,6 +4,8 @@
 #include "energy/session.h"
 #include "energy/session_columns.h"
 
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,13 +47,15 @@ class RecordReader {
     return record_[next_++];
   }
 
-  /// A number, or nothing for an empty or unavailable one.
+  /// A finite number, or nothing for an empty or unavailable one.
   std::optional<double> number() {
     const std::string& column = name();
     const std::string& field = text();
     if (field.empty() || field == kUnavailable) return std::nullopt;
     const auto value = parse_csv_number(field);
-    if (!value) throw SessionError("column " + column + " holds '" + field + "', not a number");
+    if (!value || !std::isfinite(*value)) {
+      throw SessionError("column " + column + " holds '" + field + "', not a number");
+    }
     return value;
   }
   double required() {
@@ -59,6 +63,16 @@ class RecordReader {
     const auto value = number();
     if (!value) throw SessionError("column " + column + " is empty");
     return *value;
+  }
+  /// A whole number of things.
+  std::uint64_t count() {
+    const std::string& column = name();
+    const double value = required();
+    constexpr double kMost = 9007199254740992.0;  // beyond it a double skips whole numbers
+    if (!(value >= 0.0 && value <= kMost && value == std::floor(value))) {
+      throw SessionError("column " + column + " holds '" + record_[next_ - 1] + "', not a count");
+    }
+    return static_cast<std::uint64_t>(value);
   }
   template <class Unit>
   std::optional<Unit> quantity(double scale = 1.0) {

@@ -96,7 +96,7 @@ FrameRow frame_from_record(const CsvRecord& header, const CsvRecord& record) {
   FrameRow row;
   row.time = Seconds(fields.required());
   row.configuration = fields.configuration(kAfterConfiguration);
-  row.operations = static_cast<std::uint64_t>(fields.required());
+  row.operations = fields.count();
   for (const Phase phase : kPhases) row.phases[phase] = fields.quantity<Seconds>(1e3);
   for (const Phase phase : kPhases) row.joules[phase] = fields.quantity<Joules>();
   row.operation_joules = fields.quantity<Joules>();
@@ -109,9 +109,9 @@ SummaryRow summary_from_record(const CsvRecord& header, const CsvRecord& record)
   RecordReader fields(header, record);
   SummaryRow row;
   row.configuration = fields.configuration(kAfterConfiguration);
-  row.operations = static_cast<std::uint64_t>(fields.required());
+  row.operations = fields.count();
   for (const Phase phase : {Phase::build, Phase::update, Phase::render}) {
-    row.phase_counts[phase] = static_cast<std::uint64_t>(fields.required());
+    row.phase_counts[phase] = fields.count();
   }
   row.seconds = Seconds(fields.required());
   row.mean = Seconds(fields.required() / 1e3);

@@ -18,6 +18,9 @@ constexpr const char* kWindowsFile = "windows.csv";
 constexpr const char* kConvergenceFile = "convergence.csv";
 constexpr const char* kEventsFile = "events.csv";
 
+/// Every row gets its header's names: longer ones would make much of a small file.
+constexpr std::size_t kLongestColumnName = 256;
+
 /// Reads a file's rows with `from_record(header, record)`, and puts the place before its errors.
 template <class Row, class FromRecord>
 std::vector<Row> read_rows(const std::filesystem::path& path, const FromRecord& from_record) {
@@ -26,6 +29,11 @@ std::vector<Row> read_rows(const std::filesystem::path& path, const FromRecord& 
   if (!(file && text << file.rdbuf())) throw SessionError("cannot read " + path.string());
   const std::vector<CsvRecord> records = parse_csv(text.str());
   if (records.empty()) throw SessionError(path.string() + ": the header is missing");
+  for (const std::string& name : records.front()) {
+    if (name.size() <= kLongestColumnName) continue;
+    throw SessionError(path.string() + ": a column's name is longer than " +
+                       std::to_string(kLongestColumnName) + " characters");
+  }
 
   std::vector<Row> rows;
   for (std::size_t i = 1; i < records.size(); ++i) {

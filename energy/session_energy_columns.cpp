@@ -53,8 +53,8 @@ CsvRecord convergence_header(const SessionColumns& columns) {
 CsvRecord to_record(const SampleRow& row) {
   return {csv_number(row.time.value),
           row.source,
-          csv_number(plain(row.watts), kUnavailable),
-          csv_number(plain(row.joules), kUnavailable),
+          csv_number(plain(row.watts)),
+          csv_number(plain(row.joules)),
           yes_or_no(row.changed),
           yes_or_no(row.restarted),
           std::string(to_string(row.origin))};

@@ -1,12 +1,17 @@
 #include "energy/session_toml.h"
 
+#include "energy/toml_depth.h"
+
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <locale>
+#include <sstream>
 
 namespace encore::energy {
 
@@ -117,6 +122,9 @@ class TableReader {
     } else {
       auto value = node.template value<T>();
       if (!value) throw wrong(key);
+      if constexpr (std::is_same_v<T, double>) {
+        if (!std::isfinite(*value)) throw wrong(key);
+      }
       return value;
     }
   }
@@ -188,7 +196,9 @@ Plan plan_from(const TableReader& read) {
   plan.mix_seed = read.required<std::uint64_t>("plan.mix_seed");
   if (const auto poll = read.optional<double>("plan.poll_s")) plan.poll = Seconds(*poll);
   if (const auto cut = read.optional<double>("plan.cut_below_watts")) plan.cut_below = Watts(*cut);
-  plan.repeats = static_cast<std::uint32_t>(read.required<std::uint64_t>("plan.repeats"));
+  const auto repeats = read.required<std::uint64_t>("plan.repeats");
+  if (repeats > std::numeric_limits<std::uint32_t>::max()) throw read.wrong("plan.repeats");
+  plan.repeats = static_cast<std::uint32_t>(repeats);
   const auto order = parse_order(read.required<std::string>("plan.order"));
   if (!order) throw read.wrong("plan.order");
   plan.order = *order;
@@ -236,6 +246,22 @@ std::vector<SessionSource> sources_from(const toml::table& table, const std::str
   return sources;
 }
 
+toml::table parse_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!(file && text << file.rdbuf())) throw SessionError("cannot read " + path.string());
+  if (const auto line = line_of_deep_key(text.view())) {
+    throw SessionError(
+        fmt::format("{}:{}: a key of more than {} parts", path.string(), *line, kMostKeyParts));
+  }
+  try {
+    return toml::parse(text.view());
+  } catch (const toml::parse_error& error) {
+    throw SessionError(
+        fmt::format("{}:{}: {}", path.string(), error.source().begin.line, error.description()));
+  }
+}
+
 }  // namespace
 
 void write_session_toml(const std::filesystem::path& path, const SessionInfo& info) {
@@ -280,13 +306,7 @@ void write_session_toml(const std::filesystem::path& path, const SessionInfo& in
 }
 
 SessionInfo read_session_toml(const std::filesystem::path& path) {
-  toml::table table;
-  try {
-    table = toml::parse_file(path.string());
-  } catch (const toml::parse_error& error) {
-    throw SessionError(
-        fmt::format("{}:{}: {}", path.string(), error.source().begin.line, error.description()));
-  }
+  const toml::table table = parse_file(path);
   const TableReader read(table, path.string());
   SessionInfo info;
   info.program = read.required<std::string>("program");

@@ -98,6 +98,8 @@ Scene parse_scene_toml(std::string_view text, const std::string& file_name,
     scene.lights.push_back(read_light(light, scene.warnings));
   }
   add_default_light(scene);
+  // For `encore battery`, which checks it.
+  (void)root.has("battery");
   if (auto settings = root.table("settings")) {
     read_preferences(settings->raw(), "", *settings, scene.preferences);
   }

@@ -2,6 +2,7 @@
 
 #include "energy/battery_life/key_suggestion.h"
 #include "energy/battery_life/peukert.h"
+#include "energy/toml_depth.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -187,6 +188,10 @@ Battery read_label(const Section& section, const std::string& file) {
       section.fail("a battery needs 'nominal_v' and 'capacity_ah' or 'capacity_wh', or a 'preset'");
     }
     const double coulombs = (amp_hours ? *amp_hours : *watt_hours / *volts) * 3600.0;
+    // Each is a number that may be; the quotient of two extreme ones need not.
+    if (!std::isfinite(coulombs) || !(coulombs > 0.0)) {
+      section.fail("'capacity_wh' by 'nominal_v' is no charge that a battery can have");
+    }
     battery = battery_from_label("battery", *volts, coulombs);
     battery.source = file;
   }
@@ -249,6 +254,10 @@ std::span<const std::string_view> battery_cell_keys() {
 }
 
 Battery parse_battery_toml(std::string_view text, const std::string& file) {
+  if (const auto line = line_of_deep_key(text)) {
+    throw BatteryError(
+        fmt::format("{}:{}: a key of more than {} parts", file, *line, kMostKeyParts));
+  }
   toml::table root;
   try {
     root = toml::parse(text);

@@ -1,5 +1,7 @@
 #include "energy/sources/calibration.h"
 
+#include "energy/toml_depth.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
@@ -17,7 +19,6 @@ namespace encore::energy {
 namespace {
 
 constexpr std::int64_t kFormat = 1;
-/// Bounds the parser's stack, too: keys nest no deeper than their dots.
 constexpr std::size_t kLargestFile = 16 * 1024;
 
 constexpr std::string_view kHeader =
@@ -127,6 +128,10 @@ Calibration parse_calibration(std::string_view text, const std::string& file) {
   if (text.size() > kLargestFile) {
     throw PowerModelError(
         fmt::format("{}: larger than {} bytes: this is no calibration file", file, kLargestFile));
+  }
+  if (const auto line = line_of_deep_key(text)) {
+    throw PowerModelError(
+        fmt::format("{}:{}: a key of more than {} parts", file, *line, kMostKeyParts));
   }
   toml::table root;
   try {

@@ -27,6 +27,9 @@ struct Row {
   throw SensorError(fmt::format("{}:{}: {}", file, line, what));
 }
 
+/// No meter shows more of anything, in SI units; keeps all sums and products of rows finite.
+constexpr double kLargestNumber = 1e30;
+
 class RowReader {
  public:
   RowReader(std::string file, std::size_t line, const std::vector<std::string>& header,
@@ -88,7 +91,11 @@ class RowReader {
                              : ""));
     }
     if (!std::isfinite(*value)) return std::nullopt;
-    return *value * place.column.factor;
+    const double si = *value * place.column.factor;
+    if (!(std::fabs(si) <= kLargestNumber)) {
+      refuse(file_, line, fmt::format("'{}' is too large", fields[place.index]));
+    }
+    return si;
   }
 
   std::string file_;

@@ -118,6 +118,7 @@ std::optional<std::vector<int>> parse_cpu_list(std::string_view text) {
     const auto last =
         dash == std::string_view::npos ? first : parse_unsigned(item.substr(dash + 1));
     if (!first || !last || *last < *first || *last >= kMost) return std::nullopt;
+    if (cpus.size() + (*last - *first) >= kMost) return std::nullopt;
     for (std::uint64_t cpu = *first; cpu <= *last; ++cpu) cpus.push_back(static_cast<int>(cpu));
     if (comma == std::string_view::npos) return cpus;
     text.remove_prefix(comma + 1);

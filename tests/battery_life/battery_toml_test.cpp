@@ -125,6 +125,10 @@ TEST(BatteryToml, EveryErrorNamesItsPlace) {
       {"[battery]\nnominal_v = 11.1\ncapacity_ah = 4.8\ncapacity_wh = 530\n",
        "b.toml:1:1: 530 Wh is not about 4.8 Ah at 11.1 V"},
       {"[battery]\npreset = \"generic-3s\"\ncutoff_v = 13\n", "cut-off of 13 V is not below"},
+      {"[battery]\nnominal_v = 1e15\ncapacity_wh = 5e-324\n",
+       "b.toml:1:1: 'capacity_wh' by 'nominal_v' is no charge"},
+      {"[battery]\nnominal_v = 1e-300\ncapacity_wh = 1e15\n",
+       "b.toml:1:1: 'capacity_wh' by 'nominal_v' is no charge"},
       {"[battery]\npreset = \"generic-3s\"\n[battery.cell]\nr0 = 1\n",
        "b.toml:4:1: unknown key 'r0' in [battery.cell]"},
       {"[battery]\npreset = \"generic-3s\"\n[battery.cell]\nrc = [{ohm = 1}]\n",
@@ -154,6 +158,12 @@ TEST(BatteryToml, EveryErrorNamesItsPlace) {
         << c.text << "says " << message << "\nnot " << c.says;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
+}
+
+TEST(BatteryToml, DeepKeysAreRefusedBeforeTheParserSeesThem) {
+  std::string deep = "a";
+  for (int i = 0; i < 200000; ++i) deep += ".a";
+  EXPECT_EQ(error_of("b = 1\n" + deep + " = 1\n"), "b.toml:2: a key of more than 16 parts");
 }
 
 TEST(BatteryToml, FilesThatCannotBeReadAreNamed) {

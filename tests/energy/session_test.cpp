@@ -201,6 +201,12 @@ TEST(Session, WhatIsWrongIsToldWithItsPlace) {
   folder.write("frames.csv", frames + "0.5,a,b,many" + std::string(separators - 3, ',') + "\n");
   EXPECT_NE(message().find("frames.csv, row 3: column operations holds 'many'"), std::string::npos)
       << message();
+  for (const char* count : {"-1", "1.5", "nan", "inf", "1e300"}) {
+    folder.write("frames.csv",
+                 frames + "0.5,a,b," + count + std::string(separators - 3, ',') + "\n");
+    EXPECT_NE(message().find("operations holds '" + std::string(count)), std::string::npos)
+        << message();
+  }
   folder.write("frames.csv", frames + "0.5,a\n");
   EXPECT_NE(message().find("frames.csv, row 3"), std::string::npos) << message();
   folder.write("session.toml", "program = 7\n");

@@ -111,6 +111,7 @@ TEST(Calibration, WhatIsNotTomlIsRefusedByPlace) {
   for (int i = 0; i < 20000; ++i) deep += ".a";
   EXPECT_EQ(error_of(deep + " = 1\n"),
             "my.toml: larger than 16384 bytes: this is no calibration file");
+  EXPECT_EQ(error_of(deep.substr(0, 8001) + " = 1\n"), "my.toml:1: a key of more than 16 parts");
 }
 
 TEST(Calibration, FilesThatCannotBeReadOrWrittenAreNamed) {

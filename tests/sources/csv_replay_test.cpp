@@ -116,6 +116,9 @@ TEST_F(CsvReplay, WhatIsWrongIsNamedByFileAndLine) {
       {"t,w\n0,1\n,2\n1,2\n", "r.csv:3: no time"},
       {"t,w\n1,1\n0.5,2\n2,2\n", "r.csv:3: time goes back from 1 s to 0.5 s"},
       {"t,w\n0,1\n1,-2\n2,1\n", "r.csv:3: -2 W"},
+      {"t,w\n0,1\n1,1e308\n2,1\n", "r.csv:3: '1e308' is too large"},
+      {"t_h,w\n0,1\n1e307,1\n2,1\n", "r.csv:3: '1e307' is too large"},
+      {"t,volts,amps\n0,1,1\n1,1,-1e300\n2,1,1\n", "r.csv:3: '-1e300' is too large"},
   };
   for (const auto& [text, part] : cases) {
     EXPECT_NE(refusal(text).find(part), std::string::npos) << refusal(text);

@@ -196,6 +196,10 @@ TEST(PerfEnergy, ListsOfProcessors) {
   for (const char* wrong : {"", ",", "0,", "a", "3-1", "-1", "0-999999999", "0 1"}) {
     EXPECT_FALSE(parse_cpu_list(wrong)) << wrong;
   }
+  // The limit holds for all parts together.
+  ASSERT_TRUE(parse_cpu_list("0-65535"));
+  EXPECT_EQ(parse_cpu_list("0-65535")->size(), 65536U);
+  EXPECT_FALSE(parse_cpu_list("0-65535,0"));
 }
 
 }  // namespace

@@ -81,6 +81,11 @@ TEST(StudyFile, NamesThePlaceOfWhatIsWrong) {
   EXPECT_TRUE(error_of("[plan\n").starts_with("s.toml:1:"));
 }
 
+TEST(StudyFile, MayDescribeABattery) {
+  EXPECT_EQ(error_of("[battery]\npreset = \"thesis-laptop\"\n" + kGroup), "no error");
+  EXPECT_TRUE(error_of("[battery]\ncells = 3\n" + kGroup).starts_with("s.toml:2:"));
+}
+
 TEST(StudyFile, ADigestTellsVersionsApart) {
   const std::string text = kGroup;
   EXPECT_EQ(parse_study(text, "a").digest, parse_study(text, "b").digest);
