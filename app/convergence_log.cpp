@@ -103,6 +103,12 @@ bool ConvergenceLog::enough(Seconds now) {
   return hopeless_since_ && now - start_ >= *hopeless_since_ * 2.0;
 }
 
+std::optional<Seconds> ConvergenceLog::new_prediction() {
+  if (!first_prediction_ || prediction_told_) return std::nullopt;
+  prediction_told_ = true;
+  return first_prediction_;
+}
+
 std::string ConvergenceLog::verdict(Seconds now) const {
   if (!rule_) return {};
   const double elapsed = (now - start_).value;

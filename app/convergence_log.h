@@ -47,6 +47,8 @@ class ConvergenceLog {
   [[nodiscard]] bool enough(energy::Seconds now);
   /// "±1 % needs about 212 s", while a plan with `until` runs; empty without one.
   [[nodiscard]] const std::string& words() const { return words_; }
+  /// The first prediction of how long `until` takes, once, when it is made.
+  std::optional<energy::Seconds> new_prediction();
   /// How `until` ended, as one sentence; empty without one.
   [[nodiscard]] std::string verdict(energy::Seconds now) const;
 
@@ -61,6 +63,7 @@ class ConvergenceLog {
   energy::ConvergenceTracker tracker_;
   energy::StopOutlook outlook_;
   std::optional<energy::Seconds> first_prediction_;
+  bool prediction_told_ = false;
   std::optional<energy::Seconds> hopeless_since_;
   std::string words_;
 };

@@ -3,6 +3,7 @@
 #include "app/convergence_log.h"
 #include "app/energy_rows.h"
 #include "app/machine_log.h"
+#include "app/number_text.h"
 #include "energy/machine.h"
 #include "energy/runner.h"
 
@@ -189,6 +190,11 @@ std::optional<Experiment::Result> Experiment::measure(
       convergence.emplace(info_.plan, sampler_.get(), sources_.total, row.time + start_);
     }
     convergence->add(row, clock_.now());
+    if (const auto predicted = convergence->new_prediction()) {
+      terminal_.progress_done();
+      terminal_.info(fmt::format("{}: ±{:g} % will take about {}", workload_name(spec),
+                                 100.0 * *info_.plan.until, duration_text(predicted->value)));
+    }
     machine_log_->poll(clock_.now());
     check_writing();
   };
@@ -269,6 +275,23 @@ void Experiment::attribute_energy(const energy::Measurement& measured, Result& r
       phase_rows(total, "total", sources_.provenance.origin, result.summary.configuration);
   for (const energy::PhaseRow& row : result.phases) writer_->add(row);
   for (const std::string& sentence : total.notes) note(sentence);
+}
+
+energy::SessionState Experiment::run(const std::function<energy::SessionState()>& measure_all) {
+  try {
+    const energy::SessionState state = measure_all();
+    terminal_.progress_done();
+    finish(state);
+    return state;
+  } catch (...) {
+    // Say so in the session if that is still possible; what went wrong is told by the caller.
+    terminal_.progress_done();
+    try {
+      finish(energy::SessionState::failed);
+    } catch (const energy::SessionError&) {
+    }
+    throw;
+  }
 }
 
 void Experiment::finish(energy::SessionState state) {

@@ -57,12 +57,15 @@ class Experiment {
   std::optional<Result> measure(const WorkloadSpec& spec,
                                 const std::function<void(double, std::string_view)>& progress);
 
-  /// Ends sampling and notes how the session ended. Throws energy::SessionError.
-  void finish(energy::SessionState state);
+  /// Runs `measure_all` (which calls measure()), then ends sampling and notes how the session
+  /// ended, also if that throws: the exception passes on. Returns what it returned. Throws
+  /// energy::SessionError.
+  energy::SessionState run(const std::function<energy::SessionState()>& measure_all);
   /// What sampling cost; nothing if there was no source.
   [[nodiscard]] std::optional<energy::SamplerCost> sampling_cost() const;
 
  private:
+  void finish(energy::SessionState state);
   void open(const std::filesystem::path& folder, energy::CsvWriter::Open how);
   energy::SamplerSink sink();
   /// Writes a sentence to events.csv.

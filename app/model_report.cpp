@@ -113,7 +113,7 @@ std::vector<std::string> model_caveats(const ModelReport& report) {
   }
   if (report.info.sensor.origin == energy::Origin::measured) {
     caveats.push_back(fmt::format(
-        "intervals leave out the gain error of the power source, +-{:.2g} % of all watts "
+        "intervals leave out the gain error of the power source, ±{:.2g} % of all watts "
         "and joules alike",
         196.0 * gain_uncertainty(report.info)));
   }

@@ -25,8 +25,8 @@ void tell_duration(const energy::Plan& plan, std::size_t configurations, Termina
   const double all = energy::least_duration(plan).value * static_cast<double>(configurations);
   if (all < kWorthTelling) return;
   terminal.info(fmt::format(
-      "plan {}: {} configurations, {} in all at least{}", plan.name, configurations,
-      duration_text(all),
+      "plan {}: {} configuration{}, {} in all at least{}", plan.name, configurations,
+      configurations == 1 ? "" : "s", duration_text(all),
       plan.name == "quick" ? "" : "; --plan quick takes seconds, --seconds sets the time"));
 }
 
@@ -139,19 +139,8 @@ ProfileResult run_profile(const ProfileOptions& options, const WorkloadTools& to
   report.sensor = experiment.info().sensor;
   experiment.open(report.folder);
   tell_duration(experiment.plan(), specs.size(), terminal);
-  try {
-    report.state = measure_all(specs, experiment, stop, terminal, report);
-  } catch (...) {
-    // Say so in the session if that is still possible; what went wrong is told by the caller.
-    terminal.progress_done();
-    try {
-      experiment.finish(SessionState::failed);
-    } catch (const energy::SessionError&) {
-    }
-    throw;
-  }
-  terminal.progress_done();
-  experiment.finish(report.state);
+  report.state =
+      experiment.run([&] { return measure_all(specs, experiment, stop, terminal, report); });
   report.sampling = experiment.sampling_cost();
   return {exit_code(report.state), options.json ? report_json(report) : report_text(report)};
 }

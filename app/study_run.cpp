@@ -214,18 +214,8 @@ StudyResult run_study(const StudyOptions& options, const WorkloadTools& tools,
     experiment.open(report.folder);
   }
   terminal.info("session: " + report.folder.string());
-  try {
-    report.state = StudyRun(experiment, stop, pause, terminal, done).run(left, report);
-  } catch (...) {
-    terminal.progress_done();
-    try {
-      experiment.finish(SessionState::failed);
-    } catch (const energy::SessionError&) {
-    }
-    throw;
-  }
-  terminal.progress_done();
-  experiment.finish(report.state);
+  StudyRun run(experiment, stop, pause, terminal, done);
+  report.state = experiment.run([&] { return run.run(left, report); });
   report.sampling = experiment.sampling_cost();
   return {exit_code(report.state), options.json ? report_json(report) : report_text(report)};
 }

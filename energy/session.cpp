@@ -41,6 +41,26 @@ std::optional<SessionState> parse_session_state(std::string_view word) {
   return std::nullopt;
 }
 
+FrameRow merge(const FrameRow& a, const FrameRow& b) {
+  const auto of_a = static_cast<double>(a.operations);
+  const auto of_b = static_cast<double>(b.operations);
+  FrameRow row = b;
+  row.time = a.time;
+  row.operations = a.operations + b.operations;
+  for (const Phase phase : kPhases) {
+    if (!a.phases[phase] && !b.phases[phase]) continue;
+    row.phases[phase] = (a.phases[phase].value_or(Seconds(0)) * of_a +
+                         b.phases[phase].value_or(Seconds(0)) * of_b) /
+                        (of_a + of_b);
+  }
+  // Energies are in the file, and attribution works on traces: no need to keep them here.
+  row.joules = {};
+  row.operation_joules.reset();
+  row.operation_joules_ci95.reset();
+  row.origin = Origin::unavailable;
+  return row;
+}
+
 SummaryRow summarise(const std::vector<FrameRow>& rows, const PerPhase<std::uint64_t>& counts) {
   SummaryRow summary;
   summary.configuration = rows.back().configuration;

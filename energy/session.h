@@ -182,6 +182,9 @@ struct Session {
   std::vector<ConvergenceRow> convergence;
 };
 
+/// Two rows that follow each other as one: means over the operations of both.
+FrameRow merge(const FrameRow& a, const FrameRow& b);
+
 /// The rows of one configuration as one summary row, all but its counters. `rows` is not empty and
 /// in the order of time.
 SummaryRow summarise(const std::vector<FrameRow>& rows, const PerPhase<std::uint64_t>& counts);

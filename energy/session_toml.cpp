@@ -181,6 +181,10 @@ Machine machine_from(const TableReader& read) {
 }
 
 Plan plan_from(const TableReader& read) {
+  // All 64 bits of a seed count, and TOML's integers are signed.
+  const auto seed = [&](std::string_view key) {
+    return static_cast<std::uint64_t>(read.required<std::int64_t>(key));
+  };
   Plan plan;
   plan.warm_up = Seconds(read.required<double>("plan.warm_up_s"));
   plan.warm_up_operations = read.required<std::uint64_t>("plan.warm_up_operations");
@@ -193,7 +197,7 @@ Plan plan_from(const TableReader& read) {
   plan.idle_after = Seconds(read.required<double>("plan.idle_after_s"));
   plan.cool_down = Seconds(read.required<double>("plan.cool_down_s"));
   plan.mix = Seconds(read.required<double>("plan.mix_s"));
-  plan.mix_seed = read.required<std::uint64_t>("plan.mix_seed");
+  plan.mix_seed = seed("plan.mix_seed");
   if (const auto poll = read.optional<double>("plan.poll_s")) plan.poll = Seconds(*poll);
   if (const auto cut = read.optional<double>("plan.cut_below_watts")) plan.cut_below = Watts(*cut);
   const auto repeats = read.required<std::uint64_t>("plan.repeats");
@@ -202,7 +206,7 @@ Plan plan_from(const TableReader& read) {
   const auto order = parse_order(read.required<std::string>("plan.order"));
   if (!order) throw read.wrong("plan.order");
   plan.order = *order;
-  plan.order_seed = read.required<std::uint64_t>("plan.order_seed");
+  plan.order_seed = seed("plan.order_seed");
   plan.until = read.optional<double>("plan.until");
   plan.until_limit = Seconds(read.required<double>("plan.until_limit_s"));
   return plan;

@@ -6,7 +6,8 @@
 
 namespace encore::energy {
 
-void BusyTimeline::Line::add(Seconds start, Seconds end, double amount, Seconds resolution) {
+void BusyTimeline::Line::add(Seconds start, Seconds end, double amount, Seconds resolution,
+                             std::size_t most) {
   const double before = knots.empty() ? 0.0 : knots.back().total;
   if (end < start || (!knots.empty() && start < knots.back().time)) {
     throw std::logic_error("busy spans of one column must follow each other in time");
@@ -21,6 +22,17 @@ void BusyTimeline::Line::add(Seconds start, Seconds end, double amount, Seconds 
   }
   if (n == 0 || start > knots.back().time) knots.push_back({start, before});
   knots.push_back({end, before + amount});
+  if (knots.size() > most) thin();
+}
+
+void BusyTimeline::Line::thin() {
+  const std::size_t older = knots.size() / 2;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    if (i < older && i % 2 == 1) continue;
+    knots[kept++] = knots[i];
+  }
+  knots.resize(kept);
 }
 
 double BusyTimeline::Line::at(Seconds time) const {
@@ -32,8 +44,12 @@ double BusyTimeline::Line::at(Seconds time) const {
   return a.total + (next->total - a.total) * ((time - a.time) / (next->time - a.time));
 }
 
-BusyTimeline::BusyTimeline(std::vector<std::string> columns, Seconds resolution)
-    : columns_(std::move(columns)), resolution_(resolution), lines_(columns_.size()) {}
+BusyTimeline::BusyTimeline(std::vector<std::string> columns, Seconds resolution,
+                           std::size_t most_knots)
+    : columns_(std::move(columns)),
+      resolution_(resolution),
+      most_knots_(std::max<std::size_t>(most_knots, 8)),
+      lines_(columns_.size()) {}
 
 BusyTimeline BusyTimeline::of_phases(Seconds resolution) {
   std::vector<std::string> names;
@@ -42,11 +58,11 @@ BusyTimeline BusyTimeline::of_phases(Seconds resolution) {
 }
 
 void BusyTimeline::add(std::size_t column, Seconds start, Seconds end) {
-  lines_.at(column).add(start, end, (end - start).value, resolution_);
+  lines_.at(column).add(start, end, (end - start).value, resolution_, most_knots_);
 }
 
 void BusyTimeline::add_operations(double count, Seconds start, Seconds end) {
-  operations_.add(start, end, count, resolution_);
+  operations_.add(start, end, count, resolution_, most_knots_);
 }
 
 Seconds BusyTimeline::busy(std::size_t column, Seconds from, Seconds to) const {

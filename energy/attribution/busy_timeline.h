@@ -16,11 +16,13 @@ namespace encore::energy {
 /// When each kind of work was busy, as cumulative busy time: one piecewise linear function of time
 /// a column. Columns may overlap in time (CPU and GPU at once); a column's own spans may not.
 /// Memory is bounded by `resolution`: spans of a column that follow each other within it are kept
-/// as one straight line of the right slope, so its error in busy time is below `resolution`.
+/// as one straight line of the right slope, so its error in busy time is below `resolution`. A run
+/// of days keeps `most_knots` a column: the older half gets coarser, totals stay as they are.
 class BusyTimeline {
  public:
   /// `columns`: their names, such as "build" or "gpu render".
-  explicit BusyTimeline(std::vector<std::string> columns, Seconds resolution = Seconds(0.001));
+  explicit BusyTimeline(std::vector<std::string> columns, Seconds resolution = Seconds(0.001),
+                        std::size_t most_knots = 1U << 20U);
   /// One column a Phase, in the order of kPhases.
   static BusyTimeline of_phases(Seconds resolution = Seconds(0.001));
 
@@ -52,12 +54,14 @@ class BusyTimeline {
   /// Cumulative, non-decreasing, flat outside its spans.
   struct Line {
     std::vector<Knot> knots;
-    void add(Seconds start, Seconds end, double amount, Seconds resolution);
+    void add(Seconds start, Seconds end, double amount, Seconds resolution, std::size_t most);
+    void thin();
     [[nodiscard]] double at(Seconds time) const;
   };
 
   std::vector<std::string> columns_;
   Seconds resolution_;
+  std::size_t most_knots_;
   std::vector<Line> lines_;
   Line operations_;
 };

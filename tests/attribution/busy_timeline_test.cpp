@@ -32,6 +32,15 @@ TEST(BusyTimeline, MergesShortSpansWithoutLosingTime) {
   EXPECT_NEAR(pieces[pieces.size() / 2].share, 0.4, 0.01);
 }
 
+TEST(BusyTimeline, ARunOfDaysStaysBounded) {
+  BusyTimeline busy({"build"}, Seconds(0.001), 1000);
+  for (int i = 0; i < 200000; ++i) busy.add(0, Seconds(i), Seconds(i + 0.25));
+  EXPECT_LE(busy.pieces(0, Seconds(0), Seconds(200000)).size(), 1000U);
+  EXPECT_NEAR(busy.busy(0, Seconds(0), Seconds(200000)).value, 50000, 1e-6);
+  EXPECT_NEAR(busy.busy(0, Seconds(199990), Seconds(200000)).value, 2.5, 1e-9) << "exact lately";
+  EXPECT_NEAR(busy.busy(0, Seconds(50000), Seconds(150000)).value, 25000, 500);
+}
+
 TEST(BusyTimeline, LongSpansStayExact) {
   BusyTimeline busy({"build"}, Seconds(0.001));
   for (int i = 0; i < 100; ++i) busy.add(0, Seconds(i * 0.02), Seconds(i * 0.02 + 0.013));

@@ -94,6 +94,19 @@ TEST_F(Runner, GathersShortOperationsIntoRowsAndCountsFromTheSessionsStart) {
   }
 }
 
+TEST_F(Runner, ALongRunKeepsABoundedNumberOfRowsAndItsMean) {
+  workload.build_s = 1.0 / 64;
+  plan.run = Seconds(3000.0);
+  std::size_t told = 0;
+  observer.on_row = [&](const FrameRow&) { ++told; };
+  const Measurement m = run_it();
+  EXPECT_EQ(told, 192000U);
+  EXPECT_LT(m.rows.size(), 65536U);
+  const SummaryRow summary = summarise(m.rows, m.phase_counts);
+  EXPECT_EQ(summary.operations, 192000U);
+  EXPECT_NEAR(summary.mean.value, 1.0 / 64, 1e-12);
+}
+
 TEST_F(Runner, LongOperationsHaveARowEach) {
   workload.build_s = 0.5;
   const Measurement m = run_it();

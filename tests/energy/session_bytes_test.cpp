@@ -1,5 +1,6 @@
 // A session folder whose bytes were changed is refused with the place; nothing odd gets through.
 #include "energy/session_csv.h"
+#include "energy/session_toml.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
@@ -18,6 +19,8 @@ class SessionBytes : public testing::Test {
     WindowRow window;
     window.configuration = {{"scene", "toys"}};
     window.kind = "idle";
+    window.from = Seconds(1.5);
+    window.to = Seconds(2.5);
     writer.add(window);
     writer.finish(SessionState::complete);
     ASSERT_EQ(message(), "read");
@@ -49,7 +52,7 @@ TEST_F(SessionBytes, NumbersAreFinite) {
   for (const std::string odd : {"nan", "inf", "-inf"}) {
     EXPECT_EQ(message_with("session.toml", "cool_down_s = 0.0", "cool_down_s = " + odd),
               "session.toml: plan.cool_down_s has a wrong value");
-    EXPECT_EQ(message_with("windows.csv", "idle,0.0", "idle," + odd),
+    EXPECT_EQ(message_with("windows.csv", "idle,1.5", "idle," + odd),
               "windows.csv, row 1: column from_s holds '" + odd + "', not a number");
   }
 }
@@ -57,6 +60,14 @@ TEST_F(SessionBytes, NumbersAreFinite) {
 TEST_F(SessionBytes, CountsFitTheirType) {
   EXPECT_EQ(message_with("session.toml", "repeats = 1", "repeats = 4294967297"),
             "session.toml: plan.repeats has a wrong value");
+}
+
+TEST_F(SessionBytes, SeedsKeepAllTheirBits) {
+  SessionInfo info = read_session(folder.path()).info;
+  info.plan.order_seed = 0xffffffffffffffff;
+  info.plan.mix_seed = 0x8000000000000001;
+  write_session_toml(folder.path() / "session.toml", info);
+  EXPECT_EQ(read_session(folder.path()).info, info);
 }
 
 TEST_F(SessionBytes, DeepKeysAreRefusedBeforeTheParserSeesThem) {

@@ -48,6 +48,9 @@ void check_cpu_list(std::string_view text) {
 }
 
 void check_pmu(std::string_view text) {
+  // Every processor costs a look for its package; a few are as good as thousands.
+  const auto mask = parse_cpu_list(text.substr(0, text.find('\n')));
+  if (mask && mask->size() > 16) return;
   static const test::TemporaryFolder folder;
   constexpr std::string_view kPmu = "sys/bus/event_source/devices/power";
   constexpr std::array<std::string_view, 6> kFiles = {

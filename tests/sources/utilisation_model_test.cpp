@@ -105,7 +105,7 @@ TEST(UtilisationModel, IsLabelledAnEstimate) {
   EXPECT_EQ(info.provenance.origin, Origin::modelled);
   EXPECT_EQ(info.provenance.detail,
             "ESTIMATED from utilisation (/proc/stat): idle 12 W, max 45 W; idle and max given by "
-            "the user; +-30-50 %");
+            "the user; ±30-50 %");
   EXPECT_THROW(check(UtilisationModel{Watts(45), Watts(45), "", 0.4}), PowerModelError);
 }
 
