@@ -15,7 +15,8 @@ namespace encore::app {
 struct RunFigure {
   double value = 0.0;  ///< positive
   std::optional<double> half_width;
-  std::optional<double> without_gain;  ///< the part of it that is not the gain of a sensor
+  std::optional<double> without_gain =
+      std::nullopt;  ///< the part of it that is not the gain of a sensor
 };
 
 /// What a change comes to, B against A.

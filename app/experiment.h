@@ -86,11 +86,11 @@ class Experiment {
   energy::LiveBusyTime live_;
   PowerSources sources_;     ///< its sources belong to the sampler once that runs
   std::string source_name_;  ///< of the total
-  std::unique_ptr<energy::SessionWriter> writer_;
-  // The sampler's thread uses all of the above and these: they outlive it, however this ends.
   std::mutex failure_mutex_;
   std::string failure_;            ///< of writing on the sampler's thread
   std::vector<std::string> news_;  ///< from the sampler's thread, not yet told
+  std::unique_ptr<energy::SessionWriter> writer_;
+  // The sampler's thread uses all of the above and these: they outlive it, however this ends.
   std::unique_ptr<energy::Sampler> sampler_;
   std::unique_ptr<MachineLog> machine_log_;
   std::unique_ptr<energy::SamplerThread> thread_;

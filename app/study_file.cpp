@@ -36,7 +36,7 @@ std::string digest_of(std::string_view text) {
 using Check = std::function<std::string(const std::string&)>;
 
 template <class Parse>
-Check known_word(std::string what, std::vector<std::string_view> names, Parse parse) {
+Check known_word(const std::string& what, const std::vector<std::string_view>& names, Parse parse) {
   return [=](const std::string& word) {
     if (parse(word)) return std::string();
     return fmt::format("unknown {} '{}'{}; there are {}", what, word,
@@ -52,8 +52,8 @@ Check structure_names() {
   });
 }
 
-Check one_of(std::string what, std::vector<std::string_view> names) {
-  return known_word(std::move(what), names, [names](const std::string& word) {
+Check one_of(const std::string& what, const std::vector<std::string_view>& names) {
+  return known_word(what, names, [names](const std::string& word) {
     return std::find(names.begin(), names.end(), word) != names.end();
   });
 }

@@ -195,7 +195,7 @@ class Attributor {
       out_.phases.push_back(std::move(phase));
     }
     if (out_.phases.empty()) return;
-    const double share = busy_sum / out_.length.value;
+    const double share = share_ = busy_sum / out_.length.value;
     if (std::fabs(share - 1.0) > 0.05) {
       out_.notes.push_back(
           fmt::format("the phases' times sum to {:.3g} times the measured time: {}", share,
@@ -216,17 +216,27 @@ class Attributor {
     if (!all_good) fit();
     if (alone && out_.phases[0].method == AttributionMethod::none) {
       take_whole(out_.phases[0]);
-      out_.phases[0].reason = fmt::format(
-          "the phase ran in {:.0f} % of the measured time; what ran in the rest counts, too",
-          100 * share);
+      out_.phases[0].reason =
+          fmt::format("the phase ran in {:.0f} % of the measured time; {}", 100 * share,
+                      out_.net ? "the rest is taken for idle" : "what ran in the rest counts, too");
     }
   }
 
   void take_whole(PhaseEnergy& phase) {
     phase.method = AttributionMethod::whole;
-    phase.watts = out_.watts;
-    phase.gross = out_.gross;
+    if (!out_.net) {
+      phase.watts = out_.watts;
+      phase.gross = out_.gross;
+      return;
+    }
+    // All that is above idle is the phase's, and none of the idle time between its spans.
+    const double busy = phase.busy.value;
+    const double idle = out_.idle->watts.value;
+    const double half_width = std::hypot(out_.idle->watts.statistical * (1 / share_ - 1),
+                                         total_->realised.half_width / share_);
     phase.net = out_.net;
+    phase.watts = with_gain(idle + out_.net->value / busy, half_width, source_.gain_uncertainty);
+    phase.gross = with_gain(phase.watts->value * busy, half_width * busy, source_.gain_uncertainty);
   }
 
   /// True if the phase's energy is known well enough that no fit need be asked.
@@ -312,9 +322,13 @@ class Attributor {
     if (!out_.gross || out_.phases.empty()) return;
     double rest = out_.gross->value;
     double squares = out_.gross->statistical * out_.gross->statistical;
-    const bool one_takes_all = out_.phases[0].method == AttributionMethod::whole;
-    if (one_takes_all) {
-      out_.remainder = Uncertain{};
+    if (out_.phases[0].method == AttributionMethod::whole) {
+      // The idle time between its spans.
+      const double between = out_.gross->value - out_.phases[0].gross->value;
+      const double own = out_.phases[0].gross->statistical;
+      const bool none = std::fabs(between) <= 1e-12 * out_.gross->value;
+      out_.remainder =
+          none ? Uncertain{} : with_gain(between, own * (1 - share_), source_.gain_uncertainty);
       return;
     }
     if (fitted_idle_) {
@@ -339,6 +353,7 @@ class Attributor {
   std::vector<Window> measured_;
   Attribution out_;
   std::vector<bool> good_edges_;  ///< of out_.phases
+  double share_ = 1.0;            ///< busy time by measured time, all phases together
   std::optional<MeanPower> total_;
   std::optional<IdleEstimate> idle_;
   std::vector<std::size_t> columns_;  ///< of out_.phases

@@ -36,7 +36,7 @@ struct AttributionInput {
   std::vector<Window> idle;      ///< nothing ran in these
   /// The thesis' way with gauges: the mean of all updates, idle windows included, but those below
   /// this. Biased (docs/measuring.md); `notes` tell the settled mean beside it.
-  std::optional<Watts> cut_below;
+  std::optional<Watts> cut_below = std::nullopt;
 };
 
 /// How a phase's energy was found.

@@ -123,7 +123,7 @@ SerialPort::Received SerialPort::receive() {
   Received received;
   std::array<std::uint8_t, 1024> buffer{};
   // A line cannot bring more between two polls than this; one that does is not a meter.
-  constexpr std::size_t kMost = 64 * 1024;
+  constexpr std::size_t kMost = std::size_t{64} * 1024;
   while (received.bytes.size() < kMost) {
     const ssize_t got = ::read(file_, buffer.data(), buffer.size());
     if (got > 0) {

@@ -31,10 +31,11 @@ energy::SummaryRow row_of(const std::string& test) {
 }
 
 ProfileReport report_of(std::vector<energy::SummaryRow> rows) {
-  return {"/some/folder",
-          energy::SessionState::complete,
-          {energy::Origin::unavailable, "no source"},
-          std::move(rows)};
+  ProfileReport report;
+  report.folder = "/some/folder";
+  report.sensor = {energy::Origin::unavailable, "no source"};
+  report.rows = std::move(rows);
+  return report;
 }
 
 TEST(ProfileReport, UncertaintyDecidesHowManyDigitsAreShown) {

@@ -127,10 +127,11 @@ TEST_P(ShippedStudy, CanBeSpelledOut) {
             44U);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, ShippedStudy, testing::Values("thesis.toml", "quick.toml"), [](const auto& info) {
-      return std::string(info.param).substr(0, std::string(info.param).find('.'));
-    });
+INSTANTIATE_TEST_SUITE_P(All, ShippedStudy, testing::Values("thesis.toml", "quick.toml"),
+                         [](const auto& study) {
+                           const std::string name = study.param;
+                           return name.substr(0, name.find('.'));
+                         });
 
 }  // namespace
 }  // namespace encore::app
