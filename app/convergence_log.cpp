@@ -23,7 +23,8 @@ std::optional<energy::StopRule> rule_of(const energy::Plan& plan, bool has_energ
   rule.quantity = has_energy ? ConvergenceQuantity::joules_per_operation
                              : ConvergenceQuantity::time_per_operation;
   rule.target = *plan.until;
-  rule.limit = plan.until_limit;
+  // The runner keeps the plan's limit: a prediction beyond it may still come true earlier, so only
+  // what no time could mend (drift, the sensor's steps) ends the run before.
   return rule;
 }
 

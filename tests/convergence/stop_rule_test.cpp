@@ -190,8 +190,7 @@ TEST(StopRule, SaysWhenTheSensorIsTooCoarse) {
   const StopOutlook now = outlook(rule, sensor.tracker);
   EXPECT_EQ(now.state, StopState::out_of_reach);
   // 1.96 * 3 W / 30 W / sqrt 12.
-  EXPECT_EQ(now.words,
-            "the sensor's steps are too coarse: ±1 % is out of reach, ±5.66 % at best");
+  EXPECT_EQ(now.words, "the sensor's steps are too coarse: ±1 % is out of reach, ±5.66 % at best");
 }
 
 }  // namespace
