@@ -154,7 +154,15 @@ std::string message_of(const MeterSettings& settings) {
   return "opened";
 }
 
-TEST(SerialMeter, AnUm25cIsReadFromEndToEnd) {
+/// Tests at a pseudo terminal; a chroot or a bare container may have none.
+class SerialMeter : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!test::has_pseudo_terminals()) GTEST_SKIP() << "no pseudo terminals: /dev/pts is missing";
+  }
+};
+
+TEST_F(SerialMeter, AnUm25cIsReadFromEndToEnd) {
   const Bytes frames = stream("um25c_stream.bin");
   const auto frame = [&](std::size_t at) {
     return std::string(frames.begin() + static_cast<std::ptrdiff_t>(at),
@@ -187,7 +195,7 @@ TEST(SerialMeter, AnUm25cIsReadFromEndToEnd) {
   EXPECT_DOUBLE_EQ(second.reading.energy.value, (19.982 * 0.9131 + 19.731 * 2.7655) / 2);
 }
 
-TEST(SerialMeter, ASilentOneIsAGapAndAVanishedOneIsLost) {
+TEST_F(SerialMeter, ASilentOneIsAGapAndAVanishedOneIsLost) {
   const std::string frame = test::contents_of(kFixtures / "um24c_frame.bin");
   int answers = 0;
   auto meter =
@@ -218,7 +226,7 @@ TEST(SerialMeter, ASilentOneIsAGapAndAVanishedOneIsLost) {
   EXPECT_EQ(last.state, ReadState::lost);
 }
 
-TEST(SerialMeter, AScpiMultimeterIsSetUpAndRead) {
+TEST_F(SerialMeter, AScpiMultimeterIsSetUpAndRead) {
   std::vector<std::string> commands;
   test::PseudoMeter meter([&](const std::string& asked) -> std::vector<std::string> {
     commands.push_back(asked);
@@ -248,7 +256,7 @@ TEST(SerialMeter, AScpiMultimeterIsSetUpAndRead) {
   EXPECT_EQ(commands[2], "MEAS1?\n");
 }
 
-TEST(SerialMeter, SwappedLeadsAreSaidNotIntegrated) {
+TEST_F(SerialMeter, SwappedLeadsAreSaidNotIntegrated) {
   test::PseudoMeter meter([&](const std::string& asked) -> std::vector<std::string> {
     return {asked == "*IDN?\n" ? "ACME,1\n" : "-1.0\n"};
   });
@@ -261,7 +269,7 @@ TEST(SerialMeter, SwappedLeadsAreSaidNotIntegrated) {
   EXPECT_NE(reading.message.find("swap its leads"), std::string::npos);
 }
 
-TEST(SerialMeter, WhatIsWrongIsSaidWithTheWayOut) {
+TEST_F(SerialMeter, WhatIsWrongIsSaidWithTheWayOut) {
   MeterSettings settings;
   settings.timeout = Seconds(0.05);
   settings.device = "/dev/no-such-meter";
@@ -287,7 +295,7 @@ TEST(SerialMeter, WhatIsWrongIsSaidWithTheWayOut) {
   EXPECT_NE(message_of(settings).find("'hello\\xff'"), std::string::npos);
 }
 
-TEST(SerialMeter, ALineIsClaimedByOneAtATime) {
+TEST_F(SerialMeter, ALineIsClaimedByOneAtATime) {
   test::PseudoMeter meter([](const std::string&) { return std::vector<std::string>{}; });
   const SerialPort first(meter.device(), 9600);
   try {
@@ -298,7 +306,7 @@ TEST(SerialMeter, ALineIsClaimedByOneAtATime) {
   }
 }
 
-TEST(SerialMeter, BytesPassUnchanged) {
+TEST_F(SerialMeter, BytesPassUnchanged) {
   // Terminals like to turn some of these into others, or into signals.
   std::string every;
   for (int c = 0; c < 256; ++c) every += static_cast<char>(c);

@@ -20,6 +20,15 @@
 
 namespace encore::test {
 
+/// Whether this machine gives pseudo terminals out.
+inline bool has_pseudo_terminals() {
+  const int line = ::posix_openpt(O_RDWR | O_NOCTTY);
+  if (line < 0) return false;
+  const bool works = ::grantpt(line) == 0 && ::unlockpt(line) == 0 && ::ptsname(line) != nullptr;
+  ::close(line);
+  return works;
+}
+
 /// A meter at the other end of a pseudo terminal: what it is asked goes to a function, and the
 /// pieces that this returns go back one by one. Questions end with a line break; single bytes
 /// without one are questions of their own.
