@@ -3,6 +3,7 @@
 #include "app/json_text.h"
 #include "app/number_text.h"
 #include "app/profile_table.h"
+#include "app/session_input.h"
 
 #include <fmt/format.h>
 
@@ -19,13 +20,6 @@ using Align = TextTable::Align;
 
 /// The parts of a configuration that the table shows, in its order.
 constexpr std::string_view kShown[] = {"scene", "test", "structure", "policy"};
-
-std::string value_of(const BatteryCase& load, std::string_view key) {
-  for (const energy::KeyValue& part : load.configuration) {
-    if (part.key == key) return part.value;
-  }
-  return {};
-}
 
 std::string watts_text(const energy::BatteryLoad& load) {
   const std::string mean = fmt::format("{:.4g} W", load.watts.value);
@@ -136,7 +130,7 @@ std::vector<BatteryCase> session_cases(const energy::Session& session, std::size
     load.configuration = row.configuration;
     load.load = {*row.watts, row.watts_ci95};
     load.each = row.joules;
-    if (value_of(load, "test") == "build") load.operation = "build";
+    if (configuration_value(load.configuration, "test") == "build") load.operation = "build";
     const std::string seen_by = row.source.empty() ? session.info.sensor.detail : row.source;
     load.origin = {row.origin, fmt::format("{}; what it does not see draws on top", seen_by)};
     cases.push_back(std::move(load));
@@ -159,7 +153,8 @@ std::string battery_text(const BatteryReport& report) {
     for (const energy::BatteryModel model : report.models) {
       const BatteryForecast f = energy::forecast(report.battery, load.load, model);
       std::vector<std::string> cells;
-      for (const std::string_view key : kShown) cells.push_back(value_of(load, key));
+      for (const std::string_view key : kShown)
+        cells.push_back(configuration_value(load.configuration, key));
       cells.insert(cells.end(),
                    {watts_text(load.load), std::string(energy::to_string(model)),
                     minutes_text(f.time), interval_text(f, load.load),

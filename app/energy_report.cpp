@@ -21,13 +21,6 @@ using Align = TextTable::Align;
 
 constexpr std::string_view kMissing = "unavailable";
 
-std::optional<double> counter_of(const SummaryRow& row, std::string_view name) {
-  for (const energy::Counter& counter : row.counters) {
-    if (counter.name == name) return counter.value;
-  }
-  return std::nullopt;
-}
-
 template <class Unit>
 std::optional<double> plain(const std::optional<Unit>& quantity) {
   if (!quantity) return std::nullopt;
@@ -57,13 +50,14 @@ std::string configuration_table(const ProfileReport& report) {
   const ConfigurationCells configurations(report.rows);
   for (const SummaryRow& row : report.rows) {
     auto cells = configurations.cells(row.configuration);
-    const auto delay = counter_of(row, "energy_delay_js");
+    const auto delay = counter_value(row, "energy_delay_js");
     for (std::string cell :
          {power(row.watts, row.watts_ci95),
           row.idle_watts ? power(row.idle_watts, row.idle_watts_ci95) : std::string(),
           energy(row.joules, row.joules_ci95),
           row.idle_watts ? energy(row.net_joules, row.net_joules_ci95) : std::string(),
-          derived(counter_of(row, "joules_per_mray")), derived(counter_of(row, "joules_per_pixel")),
+          derived(counter_value(row, "joules_per_mray")),
+          derived(counter_value(row, "joules_per_pixel")),
           delay ? fmt::format("{:.3g}", *delay) : std::string(),
           row.temperature_c ? fmt::format("{:.0f}", *row.temperature_c) : std::string(),
           row.throttle_events.value_or(0) > 0 ? fmt::format("{:.0f}", *row.throttle_events)

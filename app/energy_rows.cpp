@@ -1,5 +1,7 @@
 #include "app/energy_rows.h"
 
+#include "app/session_input.h"
+
 #include <string_view>
 
 namespace encore::app {
@@ -21,13 +23,6 @@ void set(const std::optional<Uncertain>& figure, double count, std::optional<Uni
   if (!figure || !(count > 0)) return;
   value = Unit(figure->value / count);
   half_width = Unit(figure->half_width / count);
-}
-
-double counter_of(const SummaryRow& row, std::string_view name) {
-  for (const energy::Counter& counter : row.counters) {
-    if (counter.name == name) return counter.value.value_or(0.0);
-  }
-  return 0.0;
 }
 
 void set_counter(SummaryRow& row, std::string_view name, double value) {
@@ -53,7 +48,7 @@ void add_energy(const Attribution& total, SummaryRow& row) {
     row.idle_watts_ci95 = Watts(total.idle->watts.half_width);
   }
   if (!row.joules) return;
-  const double rays = counter_of(row, "rays_per_operation");
+  const double rays = counter_value(row, "rays_per_operation").value_or(0.0);
   if (rays > 0) {
     set_counter(row, "joules_per_mray", row.joules->value / rays * 1e6);
     // One camera ray a pixel.

@@ -5,6 +5,7 @@
 #include "app/json_text.h"
 #include "app/number_text.h"
 #include "app/profile_table.h"
+#include "app/session_input.h"
 #include "energy/session_columns.h"
 #include "energy/session_energy_columns.h"
 
@@ -22,20 +23,6 @@ namespace {
 using energy::Phase;
 using energy::SummaryRow;
 
-std::string value_of(const SummaryRow& row, std::string_view key) {
-  for (const energy::KeyValue& part : row.configuration) {
-    if (part.key == key) return part.value;
-  }
-  return {};
-}
-
-std::optional<double> counter_of(const SummaryRow& row, std::string_view name) {
-  for (const energy::Counter& counter : row.counters) {
-    if (counter.name == name) return counter.value;
-  }
-  return std::nullopt;
-}
-
 /// A figure with the given decimals; nothing where it does not apply.
 std::string figure(std::optional<double> value, int decimals = 0) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : std::string();
@@ -51,11 +38,12 @@ std::string bytes(std::optional<double> value) {
 
 /// "depth 18" of a tree, "22x22x22" of a grid.
 std::string shape(const SummaryRow& row) {
-  if (const auto depth = counter_of(row, "max_depth")) return fmt::format("depth {:.0f}", *depth);
-  const auto x = counter_of(row, "grid_x");
+  if (const auto depth = counter_value(row, "max_depth"))
+    return fmt::format("depth {:.0f}", *depth);
+  const auto x = counter_value(row, "grid_x");
   if (!x) return {};
-  return fmt::format("{:.0f}x{:.0f}x{:.0f}", *x, counter_of(row, "grid_y").value_or(0),
-                     counter_of(row, "grid_z").value_or(0));
+  return fmt::format("{:.0f}x{:.0f}x{:.0f}", *x, counter_value(row, "grid_y").value_or(0),
+                     counter_value(row, "grid_z").value_or(0));
 }
 
 std::string mean_ms(const SummaryRow& row) {
@@ -81,19 +69,20 @@ std::string build_table(const std::vector<SummaryRow>& rows) {
     table.add_column(title);
   }
   for (const SummaryRow& row : rows) {
-    if (value_of(row, "test") != "build") continue;
+    if (configuration_value(row.configuration, "test") != "build") continue;
     const auto count = [&](Phase phase) {
       const std::uint64_t n = row.phase_counts[phase];
       return n > 0 ? std::to_string(n) : std::string();
     };
     add_row(
         table, configurations.cells(row.configuration),
-        {value_of(row, "triangles"), count(Phase::build), count(Phase::update), mean_ms(row),
-         figure(counter_of(row, "nodes")), figure(counter_of(row, "leaves")),
-         figure(counter_of(row, "references")), shape(row),
-         bytes(counter_of(row, "structure_bytes")), figure(counter_of(row, "allocations")),
-         bytes(counter_of(row, "allocated_bytes")), figure(counter_of(row, "triangle_box_tests")),
-         figure(counter_of(row, "sah_cost"), 1)});
+        {configuration_value(row.configuration, "triangles"), count(Phase::build),
+         count(Phase::update), mean_ms(row), figure(counter_value(row, "nodes")),
+         figure(counter_value(row, "leaves")), figure(counter_value(row, "references")), shape(row),
+         bytes(counter_value(row, "structure_bytes")), figure(counter_value(row, "allocations")),
+         bytes(counter_value(row, "allocated_bytes")),
+         figure(counter_value(row, "triangle_box_tests")),
+         figure(counter_value(row, "sah_cost"), 1)});
   }
   return table.empty() ? std::string() : "\nBuilds\n" + table.text();
 }
@@ -108,7 +97,7 @@ std::string frame_table(const std::vector<SummaryRow>& rows) {
     table.add_column(title);
   }
   for (const SummaryRow& row : rows) {
-    const std::string test = value_of(row, "test");
+    const std::string test = configuration_value(row.configuration, "test");
     if (test == "build") continue;
     // The number of builds tells nothing where there are none.
     const auto count = [&](Phase phase) {
@@ -120,8 +109,8 @@ std::string frame_table(const std::vector<SummaryRow>& rows) {
              percent(row.shares[Phase::animate]), percent(row.shares[Phase::build]),
              percent(row.shares[Phase::update]), percent(row.shares[Phase::transfer]),
              percent(row.shares[Phase::render]), count(Phase::build), count(Phase::update),
-             figure(counter_of(row, "sah_cost"), 1), figure(counter_of(row, "mrays_per_s"), 3),
-             figure(counter_of(row, "hits"))});
+             figure(counter_value(row, "sah_cost"), 1),
+             figure(counter_value(row, "mrays_per_s"), 3), figure(counter_value(row, "hits"))});
   }
   return table.empty() ? std::string() : "\nFrames\n" + table.text();
 }

@@ -1,6 +1,7 @@
 #include "app/session_input.h"
 
 #include "energy/session_csv.h"
+#include "energy/student_t.h"
 #include "scene/diagnostics.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,13 @@ std::string configuration_value(const std::vector<energy::KeyValue>& configurati
     if (part.key == key) return part.value;
   }
   return {};
+}
+
+std::optional<double> counter_value(const energy::SummaryRow& row, std::string_view name) {
+  for (const energy::Counter& counter : row.counters) {
+    if (counter.name == name) return counter.value;
+  }
+  return std::nullopt;
 }
 
 std::vector<energy::KeyValue> configuration_identity(
@@ -90,12 +98,11 @@ double gain_uncertainty(const energy::SessionInfo& info) {
 }
 
 double without_gain(const energy::SessionInfo& info, double value, double half_width) {
-  constexpr double kNormal95 = 1.959963984540054;
   std::optional<double> gain;
   for (const energy::SessionSource& source : info.sources) {
     if (source.in_total) gain = std::min(gain.value_or(1e9), source.info.gain_uncertainty);
   }
-  const double part = kNormal95 * gain.value_or(0.0) * value;
+  const double part = energy::kNormal95 * gain.value_or(0.0) * value;
   return std::sqrt(std::max(0.0, half_width * half_width - part * part));
 }
 

@@ -2,6 +2,7 @@
 
 #include "energy/session.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,9 @@ energy::Session open_session(const std::string& folder);
 /// The value of one part of a configuration; empty if it has none.
 std::string configuration_value(const std::vector<energy::KeyValue>& configuration,
                                 std::string_view key);
+
+/// The value of one of a row's counters; nothing if it has none.
+std::optional<double> counter_value(const energy::SummaryRow& row, std::string_view name);
 
 /// What identifies a configuration across sessions: all its parts that have a value, but for the
 /// repeat and the number of triangles (which may change with time).

@@ -9,8 +9,6 @@ namespace encore::energy {
 
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
-
 double student95(double degrees) {
   return degrees < 1e6 ? student_t_quantile(0.975, degrees) : kNormal95;
 }

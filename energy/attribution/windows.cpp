@@ -3,6 +3,7 @@
 #include "energy/attribution/batches.h"
 #include "energy/attribution/counter_reader.h"
 #include "energy/attribution/gauge_updates.h"
+#include "energy/student_t.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +15,6 @@ namespace encore::energy {
 
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
 constexpr double kAges = 5;
 constexpr double kLeastCoveredByCounter = 0.5;
 constexpr double kLeastCoveredByGauge = 0.25;

@@ -2,6 +2,7 @@
 
 #include "energy/convergence/allan.h"
 #include "energy/convergence/correlation.h"
+#include "energy/student_t.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@ namespace encore::energy {
 namespace {
 
 constexpr double kGrowth = 1.1;
-constexpr double kNormal = 1.959963984540054;
 
 /// The period by which the ends of this source's windows are unsure: its update period; a counter
 /// that is polled faster than it updates shows the update at the poll behind it.
@@ -158,7 +158,7 @@ void ConvergenceTracker::assess(ConvergenceQuantity quantity, Seconds elapsed) {
     const BlockSeries& power = watched(ConvergenceQuantity::watts).series;
     add_sensor(*source_, estimate_of(power).mean, *now.pilot);
     now.shortest = edge_period(*source_);
-    sensor = kNormal * std::hypot(edge_error(now.pilot->edge, series.length()), now.pilot->floor);
+    sensor = kNormal95 * std::hypot(edge_error(now.pilot->edge, series.length()), now.pilot->floor);
   }
   if (estimate.ci95_half_width) {
     point.half_width = std::hypot(*estimate.ci95_half_width, sensor * std::fabs(estimate.mean));

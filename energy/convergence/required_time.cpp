@@ -10,12 +10,11 @@ namespace encore::energy {
 namespace {
 
 /// 97.5 % quantile of the normal distribution.
-constexpr double kNormal = 1.959963984540054;
 const double kSqrt6 = std::sqrt(6.0);
 
 /// Square of the relative half-width times the time: what scatter contributes.
 double scatter(const Pilot& pilot) {
-  return pilot.spacing.value * pilot.inflation * std::pow(kNormal * pilot.relative_sd, 2);
+  return pilot.spacing.value * pilot.inflation * std::pow(kNormal95 * pilot.relative_sd, 2);
 }
 
 }  // namespace
@@ -44,18 +43,18 @@ Seconds edge_bound(Seconds update_period, double relative) {
 }
 
 Seconds required_time(const Pilot& pilot, double target) {
-  const double left = target * target - std::pow(kNormal * pilot.floor, 2);
+  const double left = target * target - std::pow(kNormal95 * pilot.floor, 2);
   if (!(target > 0.0) || !(left > 0.0)) return Seconds(std::numeric_limits<double>::infinity());
   // left = scatter / T + edges^2 / T^2.
   const double a = scatter(pilot) / left;
-  const double b = kNormal * edge_bound(pilot.edge, std::sqrt(left)).value;
+  const double b = kNormal95 * edge_bound(pilot.edge, std::sqrt(left)).value;
   return Seconds(0.5 * (a + std::sqrt(a * a + 4.0 * b * b))) + pilot.settle;
 }
 
 double expected_half_width(const Pilot& pilot, Seconds window) {
   const Seconds used = window - pilot.settle;
   if (!(used.value > 0.0)) return std::numeric_limits<double>::infinity();
-  const double sensor = kNormal * std::hypot(edge_error(pilot.edge, used), pilot.floor);
+  const double sensor = kNormal95 * std::hypot(edge_error(pilot.edge, used), pilot.floor);
   return std::sqrt(scatter(pilot) / used.value + sensor * sensor);
 }
 

@@ -1,5 +1,7 @@
 #include "energy/convergence/stop_rule.h"
 
+#include "energy/student_t.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@ namespace encore::energy {
 
 namespace {
 
-constexpr double kNormal = 1.959963984540054;
 /// The second assessment comes when a tenth more has passed.
 constexpr double kSecondLook = 1.1;
 
@@ -46,7 +47,7 @@ std::optional<DriftLimit> drift_limit(const Assessment& now) {
   const double window = now.point.elapsed.value / now.pauses;
   // Scatter about the line: half-width^2 = a / T. The drift moves the mean by slope * T / 2.
   const double a =
-      std::pow(kNormal * now.drift->deviation / mean, 2) * window / now.drift->effective_samples;
+      std::pow(kNormal95 * now.drift->deviation / mean, 2) * window / now.drift->effective_samples;
   DriftLimit limit;
   limit.beyond = Seconds(std::cbrt(4.0 * a / (slope * slope)));
   limit.best = std::hypot(slope * limit.beyond.value / 2.0, std::sqrt(a / limit.beyond.value));
@@ -77,10 +78,10 @@ StopOutlook still_measuring(const StopRule& rule, const Assessment& now) {
   if (!std::isfinite(predicted.value)) {
     return out_of_reach(
         fmt::format("the sensor's steps are too coarse: {} is out of reach, {} at best", wanted,
-                    percent(kNormal * pilot.floor)));
+                    percent(kNormal95 * pilot.floor)));
   }
   std::string words = fmt::format("{} needs about {:.3g} s", wanted, predicted.value);
-  const Seconds edges = edge_bound(pilot.edge, rule.target / kNormal) * now.pauses;
+  const Seconds edges = edge_bound(pilot.edge, rule.target / kNormal95) * now.pauses;
   if (edges * 2.0 > predicted) {
     words += fmt::format(" (the sensor updates every {:.3g} s: at least {:.3g} s)",
                          now.shortest.value, edges.value);

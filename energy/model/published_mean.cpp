@@ -26,7 +26,6 @@ PublishedMean published_mean(std::span<const double> figures) {
 }
 
 double normal_half_width(double standard_deviation, std::size_t count) {
-  constexpr double kNormal95 = 1.959963984540054;
   return kNormal95 * standard_deviation / std::sqrt(static_cast<double>(count));
 }
 
