@@ -6,6 +6,7 @@
 #include "scene/bounds.h"
 #include "scene/ray.h"
 #include "scene/triangle.h"
+#include "shaders/shared/gpu_types.h"
 
 #include <cstdint>
 #include <functional>
@@ -64,10 +65,22 @@ class AccelerationStructure {
   /// Figures of the last build and of the structure. Computed when asked, not while building, apart
   /// from what is counted anyway.
   [[nodiscard]] virtual BuildStats stats() const = 0;
+  /// What a GPU needs of the structure, valid until the next build or update: the very memory that
+  /// the CPU walks, and the few numbers beside it.
   [[nodiscard]] virtual GpuBuffers gpu_buffers() const = 0;
+  [[nodiscard]] virtual gpu::StructureParameters gpu_parameters() const { return {}; }
+  /// Grows with every build and update: whoever holds a copy compares it to see whether it is old.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
   /// Calls `visitor` for every node in depth-first order (grids: every non-empty cell); a visitor
   /// that returns false skips the node's children.
   virtual void visit(const std::function<bool(const NodeView&)>& visitor) const = 0;
+
+ protected:
+  /// Every build() and update() calls it.
+  void mark_changed() { ++version_; }
+
+ private:
+  std::uint64_t version_ = 0;
 };
 
 /// Implements the three batch calls over `Derived::trace<AnyHit>(ray, hit, counter_policy)`, so

@@ -9,7 +9,10 @@ namespace encore::accel {
 class BruteForce final : public TracedStructure<BruteForce> {
  public:
   [[nodiscard]] std::string_view name() const override { return "brute"; }
-  void build(std::span<const Triangle> triangles) override { triangles_ = triangles; }
+  void build(std::span<const Triangle> triangles) override {
+    mark_changed();
+    triangles_ = triangles;
+  }
   [[nodiscard]] bool can_refit() const override { return true; }
   [[nodiscard]] BuildStats stats() const override;
   [[nodiscard]] GpuBuffers gpu_buffers() const override { return {}; }

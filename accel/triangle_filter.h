@@ -2,6 +2,7 @@
 
 #include "accel/counters.h"
 #include "accel/triangle_hit.h"
+#include "shaders/shared/tolerance.h"
 
 #include <glm/vec3.hpp>
 
@@ -68,9 +69,10 @@ class TriangleFilter {
   }
 
  private:
-  static constexpr float kLargestResult = 32.0F;
-  static constexpr float kErrorFactor = 2 * 136 * 0x1p-24F / kLargestResult;
-  static constexpr float kUnderflow = 0x1p-116F;
+  static constexpr float kLargestResult = ENCORE_FILTER_LARGEST;
+  static constexpr float kErrorFactor = ENCORE_FILTER_ERROR;
+  static constexpr float kUnderflow = ENCORE_FILTER_UNDERFLOW;
+  static_assert(kErrorFactor == 2 * 136 * 0x1p-24F / kLargestResult && kUnderflow == 0x1p-116F);
 
   static float largest(const glm::vec3& v) {
     return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));

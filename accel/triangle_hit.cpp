@@ -1,6 +1,7 @@
 #include "accel/triangle_hit.h"
 
 #include "accel/box_hit.h"
+#include "shaders/shared/tolerance.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -20,9 +21,10 @@ double largest(const dvec3& v) {
 
 // The plane's normal and the slope of the ray against it are off by a few units of 2^-53 times the
 // product of the factors' largest components; below this multiple not even the sign is known.
-constexpr double kSlopeRounding = 0x1p-48;
+constexpr double kSlopeRounding = ENCORE_SLOPE_ROUNDING;
 // Above this multiple the distance is exact to far below single precision.
-constexpr double kSlopeSafe = 0x1p-20;
+constexpr double kSlopeSafe = ENCORE_SLOPE_SAFE;
+static_assert(kSlopeRounding == 0x1p-48 && kSlopeSafe == 0x1p-20);
 
 /// Keeps the distance of a triangle that is almost degenerate or edge-on inside its own box's
 /// stretch of the ray, so that structures, which only know boxes and planes, find it where it is.

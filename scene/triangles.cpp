@@ -227,8 +227,12 @@ TriangleChange Update::run(double time_s) {
       end_ += before.count;
     } else {
       now.centre = before.centre;
+      const bool changed_before = std::exchange(changed_, false);
       write(scene_.instances[i], now);
-      topology_ = topology_ || !same_connectivity(before, now);
+      const bool moved_places = !same_connectivity(before, now);
+      now.version = changed_ || moved_places ? list_.version + 1 : before.version;
+      changed_ = changed_ || changed_before;
+      topology_ = topology_ || moved_places;
       before = std::move(now);
     }
     left_out += before.left_out;
@@ -256,6 +260,19 @@ Bounds TriangleList::bounds() const {
   Bounds b;
   for (const Triangle& t : triangles) b.extend(bounds_of(t));
   return b;
+}
+
+std::vector<TriangleRange> changed_since(const TriangleList& list, std::uint64_t version) {
+  std::vector<TriangleRange> ranges;
+  for (const WrittenInstance& instance : list.bookkeeping.instances) {
+    if (instance.version <= version || instance.count == 0) continue;
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == instance.first) {
+      ranges.back().count += instance.count;
+    } else {
+      ranges.push_back({instance.first, instance.count});
+    }
+  }
+  return ranges;
 }
 
 TriangleChange update_triangles(const Scene& scene, double time_s, TriangleList& list) {

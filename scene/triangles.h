@@ -27,6 +27,7 @@ struct WrittenInstance {
   std::size_t count = 0;               ///< their number, without those left out
   std::uint64_t left_out = 0;
   std::uint64_t left_out_pattern = 0;  ///< a hash of which ones were left out
+  std::uint64_t version = 0;           ///< of the list, when one of them last changed
 };
 
 /// The one triangle list of a scene at one time, in world space: what structures are built over.
@@ -58,6 +59,17 @@ struct TriangleList {
 
   [[nodiscard]] Bounds bounds() const;
 };
+
+/// Triangles that lie side by side in a list.
+struct TriangleRange {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// Those triangles (with their normals and colours) that may have changed since the list had this
+/// version, in ascending order, neighbours joined. Of use only while `topology_version` is the
+/// same; otherwise everything may have changed.
+std::vector<TriangleRange> changed_since(const TriangleList& list, std::uint64_t version);
 
 enum class TriangleChange { none, moved, topology };
 

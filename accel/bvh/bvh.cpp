@@ -24,6 +24,7 @@ void Bvh::build(std::span<const Triangle> triangles) {
   if (triangles.size() > kMostTriangles) {
     throw std::length_error("a bounding volume hierarchy holds at most 2147483648 triangles");
   }
+  mark_changed();
   triangles_ = triangles;
   allocations_ = {};
   refit_ = {};
@@ -62,6 +63,16 @@ BuildStats Bvh::stats() const {
 
 GpuBuffers Bvh::gpu_buffers() const {
   return {{ENCORE_BINDING_NODES, std::as_bytes(nodes())}};
+}
+
+gpu::StructureParameters Bvh::gpu_parameters() const {
+  gpu::StructureParameters parameters{};
+  if (triangles_.empty()) return parameters;
+  parameters.min = root()->min;
+  parameters.max = root()->max;
+  parameters.depth = max_depth_;
+  parameters.references = static_cast<std::uint32_t>(triangles_.size());
+  return parameters;
 }
 
 void Bvh::visit(const std::function<bool(const NodeView&)>& visitor) const {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace encore::accel {
 
@@ -53,6 +54,10 @@ class Bvh final : public TracedStructure<Bvh> {
   [[nodiscard]] bool can_refit() const override { return true; }
   [[nodiscard]] BuildStats stats() const override;
   [[nodiscard]] GpuBuffers gpu_buffers() const override;
+  [[nodiscard]] gpu::StructureParameters gpu_parameters() const override;
+  /// One bit a node, in 32-bit words: the leaves that an update of case `average` writes.
+  [[nodiscard]] std::vector<std::uint32_t> average_case_leaves() const;
+  [[nodiscard]] const BvhSettings& settings() const { return settings_; }
   void visit(const std::function<bool(const NodeView&)>& visitor) const override;
 
   template <bool AnyHit, class Counter>

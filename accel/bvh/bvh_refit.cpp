@@ -89,11 +89,22 @@ void Bvh::refit() {
   refit_node<Case>(0);
 }
 
+std::vector<std::uint32_t> Bvh::average_case_leaves() const {
+  const auto all = nodes();
+  std::vector<std::uint32_t> bits((all.size() + 31) / 32, 0U);
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    const bool chosen = all[i].count != 0 && scramble(settings_.seed, i) < kAverageShare;
+    bits[i / 32] |= (chosen ? 1U : 0U) << (i % 32);
+  }
+  return bits;
+}
+
 void Bvh::update(std::span<const Triangle> triangles) {
   if (triangles.size() != triangles_.size() || triangles.size() != pairs_.size()) {
     build(triangles);
     return;
   }
+  mark_changed();
   triangles_ = triangles;
   allocations_ = {};
   refit_ = {};

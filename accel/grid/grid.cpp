@@ -39,6 +39,7 @@ void Grid::build(std::span<const Triangle> triangles) {
   if (triangles.size() > kMostReferences) {
     throw std::length_error("a grid holds at most 2^32 - 2 triangles");
   }
+  mark_changed();
   triangles_ = triangles;
   allocations_ = {};
   triangle_box_tests_ = 0;
@@ -160,6 +161,21 @@ GpuBuffers Grid::gpu_buffers() const {
   return {{ENCORE_BINDING_REFERENCES, references_.bytes()},
           {ENCORE_BINDING_CELL_STARTS, cell_starts_.bytes()},
           {ENCORE_BINDING_CELL_PLANES, layout_.all_planes().bytes()}};
+}
+
+gpu::StructureParameters Grid::gpu_parameters() const {
+  gpu::StructureParameters parameters{};
+  if (references_.empty()) return parameters;
+  const Bounds bounds = layout_.bounds();
+  parameters.min = bounds.min;
+  parameters.max = bounds.max;
+  parameters.references = static_cast<std::uint32_t>(references_.size());
+  parameters.cells = {layout_.size(0), layout_.size(1), layout_.size(2)};
+  parameters.first_plane_y = layout_.size(0) + 1;
+  parameters.first_plane_z = parameters.first_plane_y + layout_.size(1) + 1;
+  parameters.smallest_gap = {layout_.smallest_gap(0), layout_.smallest_gap(1),
+                             layout_.smallest_gap(2)};
+  return parameters;
 }
 
 void Grid::visit(const std::function<bool(const NodeView&)>& visitor) const {

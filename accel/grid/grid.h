@@ -29,6 +29,7 @@ class Grid final : public TracedStructure<Grid> {
   void build(std::span<const Triangle> triangles) override;
   [[nodiscard]] BuildStats stats() const override;
   [[nodiscard]] GpuBuffers gpu_buffers() const override;
+  [[nodiscard]] gpu::StructureParameters gpu_parameters() const override;
   void visit(const std::function<bool(const NodeView&)>& visitor) const override;
 
   /// Cells and planes of the last build.

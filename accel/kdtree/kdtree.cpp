@@ -18,6 +18,7 @@ void KdTree::build(std::span<const Triangle> triangles) {
   if (triangles.size() >= kKdMostNodes) {
     throw std::length_error("a kd-tree holds fewer than 2^30 triangles");
   }
+  mark_changed();
   triangles_ = triangles;
   bounds_ = {};
   for (const Triangle& triangle : triangles) bounds_.extend(scene::bounds_of(triangle));
@@ -66,6 +67,16 @@ BuildStats KdTree::stats() const {
 GpuBuffers KdTree::gpu_buffers() const {
   return {{ENCORE_BINDING_NODES, memory_.nodes.bytes()},
           {ENCORE_BINDING_REFERENCES, memory_.references.bytes()}};
+}
+
+gpu::StructureParameters KdTree::gpu_parameters() const {
+  gpu::StructureParameters parameters{};
+  if (triangles_.empty()) return parameters;
+  parameters.min = bounds_.min;
+  parameters.max = bounds_.max;
+  parameters.depth = memory_.depth;
+  parameters.references = static_cast<std::uint32_t>(memory_.references.size());
+  return parameters;
 }
 
 void KdTree::visit(const std::function<bool(const NodeView&)>& visitor) const {

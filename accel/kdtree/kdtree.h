@@ -23,6 +23,7 @@ class KdTree final : public TracedStructure<KdTree> {
   void build(std::span<const Triangle> triangles) override;
   [[nodiscard]] BuildStats stats() const override;
   [[nodiscard]] GpuBuffers gpu_buffers() const override;
+  [[nodiscard]] gpu::StructureParameters gpu_parameters() const override;
   void visit(const std::function<bool(const NodeView&)>& visitor) const override;
 
   /// Front to back with a stack (Pharr and Humphreys 2004, section 4.4.3), see kdtree_traverse.cpp.

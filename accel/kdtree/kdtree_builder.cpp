@@ -68,6 +68,7 @@ void KdBuilder::run(const Bounds& bounds, KdSplitter& splitter) {
 
     // A leaf: take the upper child put aside last, whose references lie on top of the stack.
     add_leaf(references);
+    memory_.depth = std::max(memory_.depth, task.depth);
     if (!in_left_) right_count_ -= task.count;
     if (waiting_count == 0) break;
     task = waiting[--waiting_count];
@@ -86,6 +87,7 @@ void KdBuilder::start() {
   // First guesses of what real scenes need; the arrays grow where more is asked for.
   const std::size_t count = triangles_.size();
   memory_.allocations = {};
+  memory_.depth = 0;
   memory_.references_classified = 0;
   memory_.triangle_box_tests = 0;
   memory_.nodes.reset(count / 2 + 64, mode_, memory_.allocations);

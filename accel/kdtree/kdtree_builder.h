@@ -72,6 +72,7 @@ struct KdBuildMemory {
   Array<KdReference> left;   ///< the references of the node in work, if it is a lower child
   Array<KdReference> right;  ///< a stack of batches: the upper children that wait
   AllocationCount allocations;
+  std::uint32_t depth = 0;                  ///< of the deepest node; the root has 0
   std::uint64_t references_classified = 0;  ///< summed over all nodes split
   std::uint64_t triangle_box_tests = 0;     ///< triangles cut to a child's box
 };

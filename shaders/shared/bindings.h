@@ -1,12 +1,32 @@
-// Storage-buffer binding points, shared by C++ and GLSL. One structure uses only some of them.
+// Binding points and sizes that C++ and GLSL share. One program uses only some of them.
 #ifndef ENCORE_SHADERS_SHARED_BINDINGS_H
 #define ENCORE_SHADERS_SHARED_BINDINGS_H
 
-#define ENCORE_BINDING_TRIANGLES 0   // gpu::Triangle[]
-#define ENCORE_BINDING_NODES 1       // gpu::BvhNode[] or gpu::KdNode[]
-#define ENCORE_BINDING_REFERENCES 2  // uint[]: triangle indices, in leaf or cell order
-#define ENCORE_BINDING_CELL_STARTS \
-  3  // uint[]: grid, first reference of each cell, one more at the end
+// Storage buffers.
+#define ENCORE_BINDING_TRIANGLES 0    // gpu::Triangle[]
+#define ENCORE_BINDING_NODES 1        // gpu::BvhNode[] or gpu::KdNode[]
+#define ENCORE_BINDING_REFERENCES 2   // uint[]: triangle indices, in leaf or cell order
+#define ENCORE_BINDING_CELL_STARTS 3  // uint[]: grid, first reference of each cell, one more at end
 #define ENCORE_BINDING_CELL_PLANES 4  // float[]: grid, cell boundaries of x, then y, then z
+#define ENCORE_BINDING_MATERIALS 5    // gpu::Material[]
+#define ENCORE_BINDING_LIGHTS 6       // gpu::Light[]
+#define ENCORE_BINDING_NORMALS 7      // float[]: nine a triangle, shading normals of its corners
+#define ENCORE_BINDING_COLORS 8       // float[]: nine a triangle, colours of its corners
+#define ENCORE_BINDING_RAYS 9         // gpu::Ray[]: rays that come from a buffer
+#define ENCORE_BINDING_HITS 10        // gpu::Hit[]: results
+#define ENCORE_BINDING_COUNTERS 11    // uint[]: three a ray: steps, box tests, triangle tests
+#define ENCORE_BINDING_PAUSED_RAYS 12   // uint[]: a slot a ray, see pausing.glsl
+#define ENCORE_BINDING_PAUSED_COUNT 13  // uint: how many slots are in use
+// The refit pass alone reuses the bindings of what it does not need.
+#define ENCORE_BINDING_PARENTS 2      // uint[]: of each pair of siblings, the parent's index
+#define ENCORE_BINDING_ARRIVALS 3     // uint[]: of each pair of siblings, who has arrived
+#define ENCORE_BINDING_LEAF_WRITES 4  // uint[]: one bit a node, which leaves are to be written
+
+// Uniform buffers.
+#define ENCORE_BINDING_STRUCTURE 0  // gpu::StructureParameters
+#define ENCORE_BINDING_CAMERA 1     // gpu::CameraParameters
+
+// Images.
+#define ENCORE_BINDING_PICTURE 0  // rgba32f, linear RGB, row 0 at the top
 
 #endif

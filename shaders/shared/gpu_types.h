@@ -6,12 +6,17 @@
 #define ENCORE_SHADERS_SHARED_GPU_TYPES_H
 
 #ifdef __cplusplus
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace encore::gpu {
 using vec3 = glm::vec3;
+using uvec2 = glm::uvec2;
+using uvec3 = glm::uvec3;
+using dvec3 = glm::dvec3;
 using uint = std::uint32_t;
 #endif
 
@@ -45,7 +50,71 @@ struct KdNode {
   uint flags;
 };
 
+// What a traversal has to know of a structure besides its buffers; whatever a structure does not
+// have is 0.
+struct StructureParameters {
+  vec3 min;    // bounds of all triangles
+  uint depth;  // trees: the longest path from the root, in nodes below it
+  vec3 max;
+  uint references;     // length of the array of references; trees without one: of triangles
+  uvec3 cells;         // grids: cells along each axis
+  uint first_plane_y;  // grids: where the planes of y and z begin among the cell planes
+  vec3 smallest_gap;   // grids: the least distance between neighbouring planes of each axis
+  uint first_plane_z;
+};
+
+// A camera made ready for one image (renderer/camera_rays.h says what the members mean).
+struct CameraParameters {
+  dvec3 forward;
+  double center_x;
+  dvec3 right;
+  double center_y;
+  dvec3 up;
+  double reserved0;
+  vec3 origin;
+  uint material_count;  // entries of the materials' buffer, the one for those that do not exist too
+  vec3 background;
+  uint light_count;
+};
+
+// The nearest hit of a ray (scene/ray.h).
+struct Hit {
+  float t;
+  uint triangle;
+  float u;
+  float v;
+};
+
+// A ray (scene/ray.h).
+struct Ray {
+  vec3 origin;
+  float t_min;
+  vec3 direction;
+  float t_max;
+};
+
+// What shading needs of a material: emission and ambient light are summed beforehand.
+struct Material {
+  vec3 diffuse;
+  float shininess;
+  vec3 specular;
+  uint reserved0;
+  vec3 glow;
+  uint reserved1;
+};
+
+struct Light {
+  vec3 position;
+  uint reserved0;
+  vec3 color;
+  uint reserved1;
+};
+
 #ifdef __cplusplus
+static_assert(sizeof(StructureParameters) == 64);
+static_assert(sizeof(CameraParameters) == 128 && offsetof(CameraParameters, origin) == 96);
+static_assert(sizeof(Hit) == 16 && sizeof(Ray) == 32);
+static_assert(sizeof(Material) == 48 && sizeof(Light) == 32);
 static_assert(sizeof(Triangle) == 48 && alignof(Triangle) == 4);
 static_assert(sizeof(BvhNode) == 32);
 static_assert(sizeof(KdNode) == 8);

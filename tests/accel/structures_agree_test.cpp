@@ -221,6 +221,39 @@ TEST_P(EveryStructure, BuildsTheSameThingTwice) {
   }
 }
 
+TEST_P(EveryStructure, CountsItsVersions) {
+  const scene::Scene scene = scene::make_sample_scene("mug").value();
+  scene::TriangleList list;
+  scene::update_triangles(scene, 0.0, list);
+  const auto structure = make_structure(default_spec(GetParam()));
+  EXPECT_EQ(structure->version(), 0U);
+  structure->build(list.triangles);
+  const std::uint64_t built = structure->version();
+  EXPECT_GT(built, 0U);
+  structure->update(list.triangles);
+  EXPECT_GT(structure->version(), built);
+}
+
+TEST_P(EveryStructure, TellsTheGpuWhatItsBuffersDoNot) {
+  if (GetParam() == StructureKind::brute) GTEST_SKIP() << "brute has nothing to tell";
+  const scene::Scene scene = scene::make_sample_scene("cow").value();
+  scene::TriangleList list;
+  scene::update_triangles(scene, 0.0, list);
+  const auto structure = make_structure(default_spec(GetParam()));
+  EXPECT_EQ(structure->gpu_parameters().references, 0U);
+  structure->build(list.triangles);
+  const gpu::StructureParameters parameters = structure->gpu_parameters();
+  const BuildStats stats = structure->stats();
+  EXPECT_EQ(parameters.references, stats.references);
+  EXPECT_EQ(parameters.depth, stats.max_depth);
+  const Bounds bounds = list.bounds();
+  EXPECT_EQ(parameters.min, bounds.min);
+  EXPECT_EQ(parameters.max, bounds.max);
+  EXPECT_EQ(parameters.cells.x, stats.grid_size[0]);
+  EXPECT_EQ(parameters.cells.y, stats.grid_size[1]);
+  EXPECT_EQ(parameters.cells.z, stats.grid_size[2]);
+}
+
 INSTANTIATE_TEST_SUITE_P(Structures, EveryStructure, testing::ValuesIn(all_structure_kinds()),
                          [](const auto& test) {
                            std::string name(to_string(test.param));

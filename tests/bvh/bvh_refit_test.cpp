@@ -36,6 +36,22 @@ void expect_same_hits_as_fresh(const Bvh& refitted, const Triangles& triangles) 
   }
 }
 
+TEST(BvhRefit, NamesTheLeavesThatTheAverageCaseWrites) {
+  const Triangles triangles = soup(1000, 1.0F, 5);
+  Bvh bvh = make(UpdateCase::average, 7);
+  bvh.build(triangles);
+  const auto bits = bvh.average_case_leaves();
+  ASSERT_EQ(bits.size(), (1999U + 31) / 32);
+  std::uint64_t chosen = 0;
+  for (std::uint32_t i = 0; i < 1999; ++i) {
+    if ((bits[i / 32] >> (i % 32) & 1U) == 0) continue;
+    ++chosen;
+    EXPECT_EQ(bvh.nodes()[i].count, 1U) << "an inner node is no leaf";
+  }
+  bvh.update(triangles);
+  EXPECT_EQ(bvh.last_refit().leaves_written, chosen);
+}
+
 std::vector<gpu::BvhNode> copy_of(const Bvh& bvh) {
   return {bvh.nodes().begin(), bvh.nodes().end()};
 }

@@ -120,6 +120,34 @@ TEST(Triangles, MovingCountsTheVersionButNotTheTopology) {
   EXPECT_EQ(list.topology_version, topology);
 }
 
+TEST(Triangles, WhatChangedSinceAVersionIsKnownByRange) {
+  const Scene scene = three_parts();
+  TriangleList list;
+  update_triangles(scene, 0.0, list);
+  const std::uint64_t first = list.version;
+  const auto all = changed_since(list, 0);
+  ASSERT_EQ(all.size(), 1U) << "neighbours are joined";
+  EXPECT_EQ(all[0].first, 0U);
+  EXPECT_EQ(all[0].count, list.triangles.size());
+  EXPECT_TRUE(changed_since(list, first).empty());
+
+  update_triangles(scene, 0.5, list);
+  const auto moved = changed_since(list, first);
+  ASSERT_EQ(moved.size(), 1U);
+  EXPECT_EQ(moved[0].first, 12U);
+  EXPECT_EQ(moved[0].count, 2U);
+  EXPECT_TRUE(changed_since(list, list.version).empty());
+
+  // Also across updates in which it rested.
+  const std::uint64_t second = list.version;
+  update_triangles(scene, 1.2, list);
+  const std::uint64_t third = list.version;
+  update_triangles(scene, 1.8, list);
+  EXPECT_EQ(list.version, third);
+  EXPECT_EQ(changed_since(list, second).size(), 1U);
+  EXPECT_TRUE(changed_since(list, third).empty());
+}
+
 TEST(Triangles, NothingIsAllocatedWhileTheCountStays) {
   Scene scene = three_parts();
   Deformer deformer;
