@@ -1,0 +1,19 @@
+// The ray through a pixel's centre (twin of renderer/camera_rays.cpp), in double precision and as
+// it is written, so that GPU and CPU trace the very same rays.
+#include "numbers.glsl"
+#include "shaders/shared/bindings.h"
+
+layout(std140, binding = ENCORE_BINDING_CAMERA) uniform CameraBlock {
+  CameraParameters camera;
+};
+
+Ray camera_ray(ivec2 pixel) {
+  precise double down = camera.center_y - (double(pixel.y) + 0.5lf);
+  precise double aside = (double(pixel.x) + 0.5lf) - camera.center_x;
+  precise dvec3 row = camera.forward + down * camera.up;
+  precise dvec3 along = row + aside * camera.right;
+  precise double squared = along.x * along.x + along.y * along.y + along.z * along.z;
+  precise double scale = 1.0lf / sqrt(squared);
+  precise dvec3 direction = along * scale;
+  return Ray(camera.origin, 0.0, vec3(direction), kInfinity);
+}
