@@ -57,9 +57,7 @@ bool changes_triangle_count(const scene::Scene& scene) {
 }
 
 FrameWorkload::FrameWorkload(WorkloadSpec spec, const WorkloadTools& tools)
-    : SceneWorkload(std::move(spec), tools), renderer_(tools.make_renderer(spec_.threads)) {
-  image_.resize(spec_.size.width, spec_.size.height);
-}
+    : SceneWorkload(std::move(spec), tools), renderer_(tools.make_renderer(spec_.threads)) {}
 
 SceneWorkload::RayFigures FrameWorkload::ray_figures() const {
   return {static_cast<double>(spec_.size.width) * spec_.size.height,
@@ -72,7 +70,7 @@ void FrameWorkload::init_renderer() {
 
 void FrameWorkload::render(energy::PhaseLog& log) {
   const auto mark = log.mark(Phase::render);
-  renderer_->render(spec_.scene->camera, image_);
+  renderer_->draw(spec_.scene->camera, spec_.size.width, spec_.size.height);
 }
 
 void StaticWorkload::prepare() {

@@ -17,9 +17,6 @@ class FrameWorkload : public SceneWorkload {
   void render(energy::PhaseLog& log);
 
   std::unique_ptr<renderer::Renderer> renderer_;
-
- private:
-  renderer::Image image_;
 };
 
 /// Builds once, then draws the same frame again and again.

@@ -106,6 +106,21 @@ void CpuTracer::render(const scene::Camera& camera, Image& image) {
   });
 }
 
+void CpuTracer::draw(const scene::Camera& camera, int width, int height) {
+  picture_.resize(width, height);
+  render(camera, picture_);
+}
+
+void CpuTracer::trace_rays(std::span<const Ray> rays, std::span<Hit> hits) {
+  check_ready();
+  // As if the rays were an image of one row.
+  for_each_tile(static_cast<int>(rays.size()), 1, [&](const PixelRect& tile) {
+    const auto first = static_cast<std::size_t>(tile.x0);
+    input_.structure->intersect(rays.subspan(first, tile.count()),
+                                hits.subspan(first, tile.count()));
+  });
+}
+
 void CpuTracer::trace_hits(const scene::Camera& camera, int width, int height,
                            std::vector<Hit>& hits) {
   check_ready();

@@ -22,7 +22,7 @@ namespace encore::renderer {
 /// contract, for any structure. After the first frame nothing is allocated.
 ///
 /// One object draws one frame at a time; several objects may share scene and structure.
-class CpuTracer final : public Renderer {
+class CpuTracer final : public Tracer {
  public:
   /// `threads` workers, 0: as many as the machine has. One worker runs in the calling thread.
   explicit CpuTracer(int threads = 0);
@@ -34,14 +34,15 @@ class CpuTracer final : public Renderer {
   /// Throws std::logic_error before init(), std::invalid_argument for a camera or an image size
   /// that make_camera_frame() rejects.
   void render(const scene::Camera& camera, Image& image) override;
+  void draw(const scene::Camera& camera, int width, int height) override;
+  void read(Image& image) override { image = picture_; }
 
-  /// Only the nearest hits, row by row from the top left, without shading; resizes `hits`.
-  /// Throws as render() does.
+  /// These throw as render() does.
   void trace_hits(const scene::Camera& camera, int width, int height,
-                  std::vector<scene::Hit>& hits);
-  /// What the ray of each pixel cost, in the same order; resizes `counters`. Throws as render().
+                  std::vector<scene::Hit>& hits) override;
   void trace_counters(const scene::Camera& camera, int width, int height,
-                      std::vector<accel::TraceCounters>& counters);
+                      std::vector<accel::TraceCounters>& counters) override;
+  void trace_rays(std::span<const scene::Ray> rays, std::span<scene::Hit> hits) override;
 
   /// Tiles that have not begun when `*flag` turns true are left as they are; null: never.
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
@@ -58,6 +59,7 @@ class CpuTracer final : public Renderer {
   void check_ready() const;
 
   RenderInput input_;
+  Image picture_;                  ///< of draw()
   ShadeFunction shade_ = nullptr;  ///< the variant that this scene needs
   int threads_ = 1;
   std::optional<tbb::global_control> more_threads_;  ///< only if there are more than processors

@@ -1,32 +1,86 @@
 #pragma once
 
 #include "accel/acceleration_structure.h"
+#include "accel/counters.h"
 #include "renderer/image.h"
 #include "scene/camera.h"
+#include "scene/ray.h"
 #include "scene/scene.h"
 #include "scene/triangles.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace encore::renderer {
 
 /// What a renderer draws from. All referenced objects stay the caller's and must outlive the
-/// renderer's use of them; the structure must be built over `triangles`.
+/// renderer's use of them; the structure must be built over `triangles`. A renderer that traces no
+/// rays needs no structure.
 struct RenderInput {
   const scene::Scene* scene = nullptr;
   const scene::TriangleList* triangles = nullptr;
   const accel::AccelerationStructure* structure = nullptr;
 };
 
+/// What a device was sent the last time that it was.
+struct Transfer {
+  std::uint64_t converted_bytes = 0;  ///< rewritten into another layout before they were sent
+  std::uint64_t uploaded_bytes = 0;
+  std::optional<double> device_s;  ///< by the device's own clock, where it has one
+};
+
 /// The interface of every renderer (thesis, appendix B): init once a scene and structure, refresh
-/// whenever the triangles or the structure changed, render as often as wanted.
+/// whenever the triangles or the structure changed, draw as often as wanted.
 class Renderer {
  public:
   virtual ~Renderer() = default;
 
   virtual void init(const RenderInput& input) = 0;
-  /// Brings device copies up to date after the triangles or structure changed. CPU: nothing to do.
+  /// Brings device copies up to date after the triangles or structure changed, and returns when the
+  /// device has them. CPU: nothing to send.
   virtual void refresh() = 0;
+  /// Draws a picture of that size and returns when it is complete; it stays on the device.
+  virtual void draw(const scene::Camera& camera, int width, int height) = 0;
+  /// Fetches the last picture drawn; resizes `image`.
+  virtual void read(Image& image) = 0;
   /// Draws into `image` at its size. No allocation after the first frame of a size.
-  virtual void render(const scene::Camera& camera, Image& image) = 0;
+  virtual void render(const scene::Camera& camera, Image& image) {
+    draw(camera, image.width, image.height);
+    read(image);
+  }
+
+  /// Whether the renderer works on copies that refresh() has to send.
+  [[nodiscard]] virtual bool transfers() const { return false; }
+  /// What the last init() or refresh() sent.
+  [[nodiscard]] virtual Transfer last_transfer() const { return {}; }
+  /// How long the last picture took by the device's own clock, where it has one.
+  [[nodiscard]] virtual std::optional<double> last_draw_s() const { return std::nullopt; }
+  /// The device by name and, where it is not what the name promises, what it is: "llvmpipe (LLVM
+  /// 15.0.6, 256 bits), software, runs on the CPU". Empty: the CPU itself.
+  [[nodiscard]] virtual std::string device_name() const { return {}; }
+};
+
+/// A renderer that traces rays through an acceleration structure.
+class Tracer : public Renderer {
+ public:
+  /// Whether refit() is there: the device can fit its own copy of the structure to triangles that
+  /// moved, without the host's help.
+  [[nodiscard]] virtual bool can_refit() const { return false; }
+  /// Fits the device's copy to the triangles that the last refresh() sent, and returns when it is
+  /// done. The host's structure stays as it was. Throws std::logic_error unless can_refit().
+  virtual void refit();
+
+  /// Only the nearest hits, row by row from the top left, without shading; resizes `hits`.
+  virtual void trace_hits(const scene::Camera& camera, int width, int height,
+                          std::vector<scene::Hit>& hits) = 0;
+  /// What the ray of each pixel cost, in the same order; resizes `counters`.
+  virtual void trace_counters(const scene::Camera& camera, int width, int height,
+                              std::vector<accel::TraceCounters>& counters) = 0;
+  /// The nearest hits of any rays; hits.size() == rays.size().
+  virtual void trace_rays(std::span<const scene::Ray> rays, std::span<scene::Hit> hits) = 0;
 };
 
 }  // namespace encore::renderer

@@ -67,9 +67,10 @@ class FakeRenderer final : public renderer::Renderer {
   explicit FakeRenderer(int& frames) : frames_(frames) {}
   void init(const renderer::RenderInput& input) override { input_ = input; }
   void refresh() override {}
-  void render(const scene::Camera&, renderer::Image&) override {
+  void draw(const scene::Camera&, int, int) override {
     if (input_.structure != nullptr) ++frames_;
   }
+  void read(renderer::Image&) override {}
 
  private:
   renderer::RenderInput input_;

@@ -1,0 +1,111 @@
+#pragma once
+
+#include "accel/settings.h"
+#include "renderer/gl/context.h"
+#include "renderer/gl/fence.h"
+#include "renderer/gpu_refit.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/paced_dispatch.h"
+#include "renderer/paused_rays.h"
+#include "renderer/picture.h"
+#include "renderer/renderer.h"
+#include "renderer/trace_defines.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace encore::renderer {
+
+/// Ray casting in OpenGL compute shaders (4.3 or later), hit for hit like the CPU: the shaders walk
+/// the very nodes that the CPU walks, decide hits by the same double-precision formula
+/// (shaders/triangle_hit.glsl), and have no limit on steps or depth.
+///
+/// What a scene or run does not use is left out of the shader by defines: other structures,
+/// counters, interpolated normals, colours, highlights, lights, rays from a buffer. Long frames go
+/// to the device in pieces that each stay far below a driver's patience (see PacedDispatch).
+///
+/// Between the fences at the end of a refresh and of a frame the host never waits for the device,
+/// but for software ones (see PausedRays).
+class GpuTracer final : public Tracer {
+ public:
+  explicit GpuTracer(std::shared_ptr<gl::Context> context);
+  ~GpuTracer() override;
+
+  /// Sends the scene and compiles. Throws std::invalid_argument if a part of the input is missing
+  /// or the structure has no GPU traversal (brute), GlError if something does not fit.
+  void init(const RenderInput& input) override;
+  void refresh() override;
+  void draw(const scene::Camera& camera, int width, int height) override;
+  void read(Image& image) override;
+
+  [[nodiscard]] bool transfers() const override { return true; }
+  [[nodiscard]] Transfer last_transfer() const override { return transfer_; }
+  [[nodiscard]] std::optional<double> last_draw_s() const override { return draw_s_; }
+  [[nodiscard]] std::string device_name() const override;
+
+  /// Bounding volume hierarchies only.
+  [[nodiscard]] bool can_refit() const override;
+  /// Also throws std::logic_error if the host's structure is not the one that was sent last, or has
+  /// another number of triangles than the list: refresh() first, rebuild before that.
+  void refit() override;
+
+  void trace_hits(const scene::Camera& camera, int width, int height,
+                  std::vector<scene::Hit>& hits) override;
+  void trace_counters(const scene::Camera& camera, int width, int height,
+                      std::vector<accel::TraceCounters>& counters) override;
+  void trace_rays(std::span<const scene::Ray> rays, std::span<scene::Hit> hits) override;
+
+  /// The picture as a texture of the context (rgba32f, linear, row 0 at the top); 0 before draw().
+  [[nodiscard]] std::uint32_t texture() const { return picture_.texture(); }
+  /// Pieces that have not been sent when `*flag` turns true are not drawn; null: never.
+  void set_cancel_flag(const std::atomic<bool>* flag);
+  /// Whether the last frame was drawn to its end.
+  [[nodiscard]] bool complete() const;
+
+ private:
+  /// What is traced at present: the uniforms of its programs that stay from piece to piece.
+  struct Launch {
+    TraceOutput output = TraceOutput::picture;
+    int width = 0;        ///< of the picture
+    int first_index = 0;  ///< of the results' buffer
+    int ray_count = 0;    ///< of rays from a buffer
+  };
+  [[nodiscard]] std::shared_ptr<gl::Program> program(TraceOutput output, bool resumable) const;
+  [[nodiscard]] TraceVariant variant(TraceOutput output, bool resumable) const;
+  [[nodiscard]] const accel::Bvh* hierarchy() const;
+  [[nodiscard]] std::uint64_t pace_key(const gl::Program& program, int width, int height) const;
+  void check_ready() const;
+  void prepare_picture_program();
+  void send_camera(const scene::Camera& camera, int width, int height);
+  void set_launch(const gl::Program& program) const;
+  void send_piece(const gl::Program& program, const PixelRect& piece);
+  void trace_bands(TraceOutput output, int width, int height, std::span<std::byte> results);
+
+  std::shared_ptr<gl::Context> context_;
+  GpuScene scene_;
+  std::optional<accel::StructureKind> kind_;
+  bool ready_ = false;        ///< whether the device has what the input says
+  std::uint32_t scenes_ = 0;  ///< how many init() has seen
+  std::string doing_;         ///< for messages
+  std::shared_ptr<gl::Program> picture_program_;
+  std::unique_ptr<GpuRefit> refit_;  ///< made when first asked for
+  PacedDispatch frames_;             ///< of pictures
+  PacedDispatch batches_;            ///< of everything else
+  Launch launch_;
+  PausedRays paused_;  ///< software devices only
+  bool complete_ = true;
+  Picture picture_;
+  gl::Buffer camera_{"the camera"};
+  gl::Buffer rays_{"the rays"};
+  gl::Buffer results_{"the results of rays"};
+  gl::Timer timer_;
+  Transfer transfer_;
+  std::optional<double> draw_s_;
+};
+
+}  // namespace encore::renderer

@@ -1,0 +1,107 @@
+#include "renderer/trace_defines.h"
+
+#include <stdexcept>
+
+namespace encore::renderer {
+
+namespace {
+
+enum class Traversal { none, grid, kd_tree, bvh };
+
+Traversal traversal_of(accel::StructureKind kind) {
+  switch (kind) {
+    case accel::StructureKind::brute:
+      return Traversal::none;
+    case accel::StructureKind::grid_exact:
+    case accel::StructureKind::grid_box:
+      return Traversal::grid;
+    case accel::StructureKind::kd_median:
+    case accel::StructureKind::kd_sah:
+      return Traversal::kd_tree;
+    case accel::StructureKind::bvh_median:
+      return Traversal::bvh;
+  }
+  return Traversal::none;
+}
+
+std::string define(const char* name, std::uint32_t value) {
+  return std::string(name) + ' ' + std::to_string(value);
+}
+
+void add_structure(const TraceVariant& variant, std::vector<std::string>& defines) {
+  const Traversal traversal = traversal_of(variant.kind);
+  if (traversal == Traversal::none) {
+    throw std::invalid_argument("structure " + std::string(accel::to_string(variant.kind)) +
+                                " has no GPU traversal");
+  }
+  if (traversal == Traversal::grid) {
+    defines.emplace_back("ENCORE_TRAVERSE_GRID");
+    return;
+  }
+  defines.emplace_back(traversal == Traversal::bvh ? "ENCORE_TRAVERSE_BVH"
+                                                   : "ENCORE_TRAVERSE_KDTREE");
+  defines.push_back(define("ENCORE_STACK_SIZE", trace_stack_size(variant.depth)));
+}
+
+void add_output(const TraceVariant& variant, std::vector<std::string>& defines) {
+  switch (variant.output) {
+    case TraceOutput::picture:
+      defines.emplace_back("ENCORE_OUTPUT_PICTURE");
+      if (variant.needs.normals) defines.emplace_back("ENCORE_NORMALS");
+      if (variant.needs.colors) defines.emplace_back("ENCORE_COLORS");
+      if (variant.needs.specular) defines.emplace_back("ENCORE_SPECULAR");
+      if (variant.lights) defines.emplace_back("ENCORE_LIGHTS");
+      return;
+    case TraceOutput::hits:
+      defines.emplace_back("ENCORE_OUTPUT_HITS");
+      return;
+    case TraceOutput::counters:
+      defines.emplace_back("ENCORE_OUTPUT_COUNTERS");
+      return;
+    case TraceOutput::ray_hits:
+      defines.emplace_back("ENCORE_OUTPUT_HITS");
+      defines.emplace_back("ENCORE_RAYS_FROM_BUFFER");
+      return;
+  }
+}
+
+}  // namespace
+
+bool has_gpu_traversal(accel::StructureKind kind) {
+  return traversal_of(kind) != Traversal::none;
+}
+
+std::uint32_t trace_stack_size(std::uint32_t depth) {
+  return (depth + 1 + 15) / 16 * 16;
+}
+
+std::uint32_t paused_ray_words(const TraceVariant& variant) {
+  constexpr std::uint32_t kHeader = 8;
+  const std::uint32_t stack = trace_stack_size(variant.depth);
+  switch (traversal_of(variant.kind)) {
+    case Traversal::none:
+      return kHeader;
+    case Traversal::grid:
+      return kHeader + 24;
+    case Traversal::kd_tree:
+      return kHeader + 3 + 3 * stack;
+    case Traversal::bvh:
+      return kHeader + 2 + 2 * stack;
+  }
+  return kHeader;
+}
+
+std::vector<std::string> trace_defines(const TraceVariant& variant) {
+  std::vector<std::string> defines;
+  add_structure(variant, defines);
+  add_output(variant, defines);
+  if (variant.pause_after > 0) {
+    defines.push_back(define("ENCORE_PAUSE_AFTER", variant.pause_after));
+    if (variant.resumable) defines.emplace_back("ENCORE_RESUMABLE");
+  }
+  defines.push_back(define("ENCORE_GROUP_X", kTraceGroupWidth));
+  defines.push_back(define("ENCORE_GROUP_Y", kTraceGroupHeight));
+  return defines;
+}
+
+}  // namespace encore::renderer
