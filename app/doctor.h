@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/doctor_opengl.h"
 #include "energy/sampling/sampler.h"
 #include "energy/sampling/trace.h"
 #include "energy/sources/discovery.h"
@@ -36,6 +37,7 @@ struct DoctorReport {
   energy::Seconds observed;
   energy::SamplerCost cost;
   std::size_t readings = 0;
+  std::optional<OpenGlReport> opengl;  ///< empty: not looked for
 
   [[nodiscard]] bool any_usable() const;
 };
@@ -58,7 +60,8 @@ DoctorReport examine(const energy::Host& host, const std::vector<energy::Finding
 std::optional<energy::Watts> mean_power(const energy::TraceView& trace,
                                         const energy::SourceInfo& info);
 
-/// For people: a table, then each sensor with what it includes, its place and what is in its way.
+/// For people: a table, then each sensor with what it includes, its place and what is in its way;
+/// then the OpenGL devices.
 std::string doctor_text(const DoctorReport& report);
 std::string doctor_json(const DoctorReport& report);
 

@@ -142,6 +142,7 @@ std::string doctor_text(const DoctorReport& report) {
     text += fmt::format("{:<16} {:.2f} % of one core ({} readings in {})\n", "cost of reading",
                         100.0 * report.cost.share(), report.readings, time_text(report.observed));
   }
+  if (report.opengl) text += '\n' + opengl_text(*report.opengl);
   return text;
 }
 
@@ -156,10 +157,12 @@ std::string doctor_json(const DoctorReport& report) {
   return fmt::format(
       "{{\"usable\": {}, \"virtual_machine\": {}, \"container\": {}, \"observed_s\": {},\n"
       " \"total\": {{\"sources\": {}, \"mean_w\": {}}},\n"
-      " \"sampling\": {{\"share_of_core\": {}, \"readings\": {}}},\n \"sensors\": [{}\n]}}\n",
+      " \"sampling\": {{\"share_of_core\": {}, \"readings\": {}}},\n \"opengl\": {},\n"
+      " \"sensors\": [{}\n]}}\n",
       report.any_usable(), vm ? (*vm ? "true" : "false") : "null", report.host.container,
       json_number(report.observed.value), json_list(total), optional_json(report.total_mean),
-      report.readings > 0 ? json_number(report.cost.share()) : "null", report.readings, sensors);
+      report.readings > 0 ? json_number(report.cost.share()) : "null", report.readings,
+      report.opengl ? opengl_json(*report.opengl) : "null", sensors);
 }
 
 }  // namespace encore::app

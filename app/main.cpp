@@ -2,6 +2,7 @@
 #include "app/exit_code.h"
 #include "app/interrupt.h"
 #include "energy/sources/discovery.h"
+#include "renderer/gl/error.h"
 #include "scene/diagnostics.h"
 #include "scene/text_suggestion.h"
 
@@ -45,7 +46,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 no usable power sensor,\n"
-      "6 verification mismatch, 7 regression, 130 interrupted (what was measured is saved).");
+      "5 no usable OpenGL, 6 verification mismatch, 7 regression,\n"
+      "130 interrupted (what was measured is saved).");
 
   ExitCode result = ExitCode::ok;
   encore::app::add_profile_command(app, result);
@@ -72,6 +74,8 @@ int run(int argc, char** argv) {
     return fail(ExitCode::bad_input, error.what());
   } catch (const encore::energy::SensorError& error) {
     return fail(ExitCode::no_sensor, error.what());
+  } catch (const encore::renderer::gl::GlUnavailable& error) {
+    return fail(ExitCode::no_display, error.what());
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::failure, "out of memory; close other programs or use a smaller scene");
   } catch (const std::exception& error) {

@@ -22,9 +22,10 @@ struct DoctorOptions {
 }  // namespace
 
 void add_doctor_command(CLI::App& app, ExitCode& result) {
-  auto* command = app.add_subcommand(
-      "doctor",
-      "Say which power sensors this machine has, what they include and what is in the way");
+  auto* command = app.add_subcommand("doctor",
+                                     "Say which power sensors this machine has, what they include "
+                                     "and what is in the way; and which "
+                                     "OpenGL devices");
   const auto options = std::make_shared<DoctorOptions>();
   command->add_flag("--json", options->json, "Print the result as JSON on standard output");
   command->add_option("--seconds", options->seconds, "How long to observe the sensors (default 2)")
@@ -42,8 +43,10 @@ void add_doctor_command(CLI::App& app, ExitCode& result) {
     Observation observation;
     observation.length = energy::Seconds(options->seconds);
     observation.all = options->all;
-    const DoctorReport report =
+    DoctorReport report =
         examine(energy::read_host(root), energy::discover(root), observation, clock, interrupted);
+    // Afterwards, for it may wake a GPU.
+    if (!interrupted) report.opengl = examine_opengl();
     fmt::print("{}", options->json ? doctor_json(report) : doctor_text(report));
     result = report.any_usable() ? ExitCode::ok : ExitCode::no_sensor;
     if (interrupted) result = ExitCode::interrupted;
