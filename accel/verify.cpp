@@ -7,28 +7,23 @@
 
 namespace encore::accel {
 
-namespace {
-
-/// Files one pair of answers under what is wrong with it; `same_place` says whether t, u and v of
-/// two hits of the same triangle agree.
-void file(HitComparison& comparison, const Ray& ray, const Hit& expected, const Hit& found,
-          bool same_place) {
-  const std::uint64_t before = comparison.mismatches();
-  ++comparison.rays;
-  if (expected.found()) ++comparison.hits;
+void HitComparison::add(const Ray& ray, const Hit& expected, const Hit& found, bool same_place) {
+  const std::uint64_t before = mismatches();
+  ++rays;
+  if (expected.found()) ++hits;
   if (expected.found() && !found.found()) {
-    ++comparison.missed;
+    ++missed;
   } else if (!expected.found() && found.found()) {
-    ++comparison.invented;
+    ++invented;
   } else if (expected.triangle != found.triangle) {
-    ++comparison.wrong_triangle;
-  } else if (expected.found() && !same_place) {
-    ++comparison.wrong_distance;
+    ++wrong_triangle;
+  } else if (!same_place) {
+    ++wrong_distance;
   }
-  if (before == 0 && comparison.mismatches() > 0) {
-    comparison.first_ray = ray;
-    comparison.first_expected = expected;
-    comparison.first_found = found;
+  if (before == 0 && mismatches() > 0) {
+    first_ray = ray;
+    first_expected = expected;
+    first_found = found;
   }
 }
 
@@ -36,8 +31,6 @@ bool within_one_rounding(float a, float b) {
   return a == b || std::nextafter(a, b) == b;
 }
 
-/// Whether two distances along a ray to a triangle are the same to single precision, or (for a ray
-/// that starts almost on the triangle) to double precision of the coordinates involved.
 bool same_distance(float a, float b, const Ray& ray, const Triangle& triangle) {
   if (within_one_rounding(a, b)) return true;
   double coordinate = 0.0;
@@ -50,8 +43,6 @@ bool same_distance(float a, float b, const Ray& ray, const Triangle& triangle) {
   }
   return std::fabs(double(a) - double(b)) * direction <= 0x1p-44 * coordinate;
 }
-
-}  // namespace
 
 HitComparison& HitComparison::operator+=(const HitComparison& other) {
   if (mismatches() == 0 && other.mismatches() > 0) {
@@ -81,7 +72,7 @@ HitComparison compare_hits(const AccelerationStructure& structure,
   HitComparison comparison;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const bool same_place = std::memcmp(&expected[i], &found[i], sizeof(Hit)) == 0;
-    file(comparison, rays[i], expected[i], found[i], same_place);
+    comparison.add(rays[i], expected[i], found[i], same_place);
     if ((blocked[i] != 0) != expected[i].found()) {
       if (comparison.mismatches() == 0) {
         comparison.first_ray = rays[i];
@@ -117,7 +108,7 @@ OracleComparison compare_with_oracle(const AccelerationStructure& structure,
     }
     const bool same_place = !expected.found() || same_distance(expected.t, answer.t, rays[i],
                                                                triangles[expected.triangle]);
-    file(comparison.hits, rays[i], expected, answer, same_place);
+    comparison.hits.add(rays[i], expected, answer, same_place);
   }
   return comparison;
 }

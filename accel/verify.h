@@ -14,7 +14,7 @@ struct HitComparison {
   std::uint64_t missed = 0;           ///< the reference hits, the structure does not
   std::uint64_t invented = 0;         ///< the structure hits, the reference does not
   std::uint64_t wrong_triangle = 0;   ///< both hit, different triangles
-  std::uint64_t wrong_distance = 0;   ///< the same triangle at another t, u or v
+  std::uint64_t wrong_distance = 0;   ///< the same triangle, or none, at another t, u or v
   std::uint64_t wrong_occlusion = 0;  ///< any-hit disagrees with the nearest hit
   /// The first ray that differs, and both answers; meaningful if mismatches() > 0.
   Ray first_ray;
@@ -24,8 +24,18 @@ struct HitComparison {
   [[nodiscard]] std::uint64_t mismatches() const {
     return missed + invented + wrong_triangle + wrong_distance + wrong_occlusion;
   }
+  /// Files one pair of answers; `same_place` says whether t, u and v agree, should both be hits of
+  /// the same triangle or both misses.
+  void add(const Ray& ray, const Hit& expected, const Hit& found, bool same_place);
   HitComparison& operator+=(const HitComparison& other);
 };
+
+/// Equal, or neighbours among the floats.
+bool within_one_rounding(float a, float b);
+
+/// Whether two distances along a ray to a triangle are the same to single precision, or (for a ray
+/// that starts almost on the triangle) to double precision of the coordinates involved.
+bool same_distance(float a, float b, const Ray& ray, const Triangle& triangle);
 
 /// Holds `structure` to `reference`: nearest hits bit for bit, and any-hit against them.
 HitComparison compare_hits(const AccelerationStructure& structure,

@@ -1,4 +1,5 @@
 #include "app/attach.h"
+#include "app/profile_run.h"
 #include "energy/session_csv.h"
 #include "energy/sources/discovery.h"
 #include "scene/diagnostics.h"
@@ -11,6 +12,17 @@
 #include <utility>
 
 namespace encore::app {
+
+namespace {
+
+std::vector<energy::PhaseRow> total_phases(const energy::Session& session) {
+  std::vector<energy::PhaseRow> phases;
+  std::copy_if(session.phases.begin(), session.phases.end(), std::back_inserter(phases),
+               [](const energy::PhaseRow& row) { return row.source == "total"; });
+  return phases;
+}
+
+}  // namespace
 
 energy::Recording open_recording(const std::string& file) {
   try {
@@ -52,6 +64,7 @@ void write_attached(const std::filesystem::path& folder, const std::filesystem::
           fmt::format("cannot copy {} to {}: {}", log.string(), folder.string(), error.message()));
     }
   }
+  write_transfers(folder, session.summaries, total_phases(session));
   writer.finish(session.info.state);
 }
 
@@ -62,9 +75,9 @@ ProfileReport attach_report(const std::filesystem::path& folder, const Attached&
   report.sensor = attached.session.info.sensor;
   report.rows = attached.session.summaries;
   report.notes = attached.notes;
-  const auto& phases = attached.session.phases;
-  std::copy_if(phases.begin(), phases.end(), std::back_inserter(report.phases),
-               [](const energy::PhaseRow& row) { return row.source == "total"; });
+  report.phases = total_phases(attached.session);
+  report.gpu = gpu_of(attached.session.info);
+  report.transfers = derive_transfers(report.rows, report.phases);
   return report;
 }
 

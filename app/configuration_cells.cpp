@@ -22,13 +22,14 @@ bool differs(const std::vector<energy::SummaryRow>& rows, std::string_view key,
 
 ConfigurationCells::ConfigurationCells(const std::vector<energy::SummaryRow>& rows)
     : groups_(differs(rows, "group", "")),
+      devices_(differs(rows, "device", "cpu")),
       memory_(differs(rows, "memory", "pool")),
       cases_(differs(rows, "update_case", "real")),
       repeats_(differs(rows, "repeat", "1")) {}
 
 void ConfigurationCells::add_columns(TextTable& table) {
-  for (const char* title :
-       {"group", "scene", "test", "structure", "policy", "case", "memory", "size", "repeat"}) {
+  for (const char* title : {"group", "scene", "device", "test", "structure", "policy", "case",
+                            "memory", "size", "repeat"}) {
     table.add_column(title, TextTable::Align::left);
   }
 }
@@ -41,6 +42,7 @@ std::vector<std::string> ConfigurationCells::cells(
   const std::string width = value("width");
   return {value("group", groups_),
           value("scene"),
+          value("device", devices_),
           value("test"),
           value("structure"),
           value("policy"),

@@ -21,6 +21,7 @@ class ConfigurationCells {
 
  private:
   bool groups_;
+  bool devices_;
   bool memory_;
   bool cases_;
   bool repeats_;

@@ -1,6 +1,7 @@
 #include "app/energy_rows.h"
 
 #include "app/session_input.h"
+#include "energy/csv.h"
 
 #include <string_view>
 
@@ -33,6 +34,14 @@ void set_counter(SummaryRow& row, std::string_view name, double value) {
   }
 }
 
+/// Of the picture; 0 if there is none.
+double pixels_of(const std::vector<energy::KeyValue>& configuration) {
+  const auto side = [&](std::string_view key) {
+    return energy::parse_csv_number(configuration_value(configuration, key)).value_or(0.0);
+  };
+  return side("width") * side("height");
+}
+
 }  // namespace
 
 void add_energy(const Attribution& total, SummaryRow& row) {
@@ -51,8 +60,9 @@ void add_energy(const Attribution& total, SummaryRow& row) {
   const double rays = counter_value(row, "rays_per_operation").value_or(0.0);
   if (rays > 0) {
     set_counter(row, "joules_per_mray", row.joules->value / rays * 1e6);
-    // One camera ray a pixel.
-    set_counter(row, "joules_per_pixel", row.joules->value / rays);
+  }
+  if (const double pixels = pixels_of(row.configuration); pixels > 0) {
+    set_counter(row, "joules_per_pixel", row.joules->value / pixels);
   }
   set_counter(row, "energy_delay_js", row.joules->value * row.mean.value);
 }

@@ -78,7 +78,12 @@ std::unique_ptr<PowerSource> open_simulated(const std::string& preset, const std
         fmt::format("--source simulated:{}: there are {}", preset, fmt::join(presets, ", ")));
   }
   energy::SimulatedSettings settings = energy::simulated_preset(preset);
-  const energy::PowerModel model = constants_of(truth.empty() ? "thesis-laptop" : truth);
+  energy::PowerModel model = constants_of(truth.empty() ? "thesis-laptop" : truth);
+  // A machine draws something whatever it does: a phase without a constant (the thesis has none for
+  // transfer) is as hard as rendering.
+  for (std::optional<energy::Watts>& delta : model.delta) {
+    if (!delta) delta = model.delta[energy::Phase::render].value_or(energy::Watts(0));
+  }
   settings.energy_until = [&live, model](energy::Seconds time) {
     const energy::BusyTimes busy{live.busy(time), {}};
     return energy::modelled_energy(model, time, busy).value_or(energy::Joules(0));

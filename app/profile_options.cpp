@@ -38,11 +38,23 @@ std::string unknown_policy(const std::string& name) {
                      fmt::join(names, ", "));
 }
 
-void check_device(const std::string& device, const std::string& place) {
-  if (device == "cpu") return;
-  const std::string problem = fmt::format("unknown device '{}'; there is cpu", device);
-  if (place.empty()) throw UsageError(problem);
-  throw scene::InputError(place + ": " + problem);
+/// The devices asked for, else the scene's, else the CPU; each once.
+std::vector<Device> chosen_devices(const ProfileOptions& options, const scene::Scene& scene) {
+  std::vector<Device> devices;
+  for (const std::string& name : options.devices) {
+    const auto device = parse_device(name);
+    if (!device) throw UsageError(unknown_device(name));
+    if (std::find(devices.begin(), devices.end(), *device) == devices.end()) {
+      devices.push_back(*device);
+    }
+  }
+  if (!devices.empty()) return devices;
+  if (const scene::Preference* stated = preference(scene, "device")) {
+    const auto device = parse_device(stated->value);
+    if (!device) throw scene::InputError(stated->place + ": " + unknown_device(stated->value));
+    return {*device};
+  }
+  return {Device::cpu};
 }
 
 /// The policies asked for, else the scene's, else rebuild; each once.
@@ -74,8 +86,8 @@ void set_update_case(accel::StructureSpec& spec, const std::string& name) {
   if (auto* bvh = std::get_if<accel::BvhSettings>(&spec.settings)) bvh->update_case = *update_case;
 }
 
-/// Lists the tests of one structure: those that render nothing new are left out, such as refitting
-/// a structure that can only be rebuilt when rebuilding is asked for as well.
+/// Lists the tests of one scene. Those that measure nothing new are left out, such as refitting a
+/// structure that can only be rebuilt when rebuilding is asked for as well.
 class ScenePlan {
  public:
   ScenePlan(const ProfileOptions& options, const WorkloadTools& tools, Terminal& terminal,
@@ -85,45 +97,62 @@ class ScenePlan {
     named_ = !tests_.empty();
     if (!named_) tests_.assign(std::begin(kUsualTests), std::end(kUsualTests));
     policies_ = chosen_policies(options, *scene_);
-    if (const scene::Preference* device = preference(*scene_, "device")) {
-      check_device(device->value, device->place);
-    }
+    devices_ = chosen_devices(options, *scene_);
   }
 
   void append_to(std::vector<WorkloadSpec>& all) {
     const std::vector<accel::StructureSpec> structures = chosen_structures(options_, *scene_);
-    for (const TestKind test : tests_) warn_about(test);
     WorkloadSpec spec;
     spec.scene = scene_;
     spec.size = parse_size(options_.size);
     spec.threads = chosen_threads(options_, *scene_);
-    for (const accel::StructureSpec& structure : structures) {
-      spec.structure = structure;
-      set_update_case(spec.structure, options_.update_case);
-      const bool can_refit = tools_.make_structure(spec.structure)->can_refit();
-      for (const TestKind test : tests_) {
-        spec.test = test;
-        for (const Policy policy : distinct_policies(test, can_refit)) {
-          spec.policy = policy;
-          if (reason_to_skip(test, policy, *scene_).empty()) all.push_back(spec);
+    for (const Device device : devices_) {
+      spec.device = device;
+      if (!traces_rays(device)) {
+        // Nothing to choose: no structure, and so no policy.
+        spec.structure = {};
+        append_tests(spec, {Policy::fixed}, all);
+        continue;
+      }
+      for (const accel::StructureSpec& structure : structures) {
+        spec.structure = structure;
+        set_update_case(spec.structure, options_.update_case);
+        const bool can_refit = tools_.make_structure(spec.structure)->can_refit();
+        append_tests(spec, distinct_policies(can_refit), all);
+      }
+    }
+  }
+
+  /// Why tests were left out, each reason once.
+  [[nodiscard]] const std::vector<std::string>& reasons() const { return reasons_; }
+
+ private:
+  void append_tests(WorkloadSpec spec, const std::vector<Policy>& policies,
+                    std::vector<WorkloadSpec>& all) {
+    for (const TestKind test : tests_) {
+      spec.test = test;
+      const bool still = test == TestKind::fixed;
+      for (const Policy policy : still ? std::vector{Policy::fixed} : policies) {
+        spec.policy = policy;
+        const std::string reason = reason_to_skip(spec);
+        if (reason.empty()) {
+          all.push_back(spec);
+        } else {
+          leave_out(spec, reason);
         }
       }
     }
   }
 
- private:
-  /// Says once a scene why a test that was asked for by name is left out.
-  void warn_about(TestKind test) {
-    for (const Policy policy : policies_) {
-      const std::string reason = reason_to_skip(test, policy, *scene_);
-      if (reason.empty() || reason == last_reason_) continue;
-      if (named_) terminal_.warning(reason);
-      last_reason_ = reason;
-    }
+  /// Says once a scene why something is left out that was asked for by name.
+  void leave_out(const WorkloadSpec& spec, const std::string& reason) {
+    if (std::find(reasons_.begin(), reasons_.end(), reason) != reasons_.end()) return;
+    reasons_.push_back(reason);
+    const bool named_structure = spec.structure.kind == accel::StructureKind::brute;
+    if (named_ || named_structure) terminal_.warning(reason);
   }
 
-  [[nodiscard]] std::vector<Policy> distinct_policies(TestKind test, bool can_refit) const {
-    if (test == TestKind::fixed) return {Policy::fixed};
+  [[nodiscard]] std::vector<Policy> distinct_policies(bool can_refit) const {
     std::vector<Policy> distinct;
     for (Policy policy : policies_) {
       if (policy == Policy::refit && !can_refit) policy = Policy::rebuild;
@@ -141,7 +170,8 @@ class ScenePlan {
   std::vector<TestKind> tests_;
   bool named_ = false;
   std::vector<Policy> policies_;
-  std::string last_reason_;
+  std::vector<Device> devices_;
+  std::vector<std::string> reasons_;
 };
 
 }  // namespace
@@ -155,16 +185,20 @@ std::vector<WorkloadSpec> list_workloads(const ProfileOptions& options, const Wo
 
 std::vector<WorkloadSpec> list_workloads(const ProfileOptions& options, const WorkloadTools& tools,
                                          Terminal& terminal, const SceneOpener& open) {
-  check_device(options.device, {});
   std::vector<std::string> names = options.scenes;
   if (names.empty()) names.emplace_back(scene::kDefaultSceneName);
   std::vector<WorkloadSpec> all;
+  std::string why;
   for (const std::string& name : names) {
-    ScenePlan(options, tools, terminal, open(name)).append_to(all);
+    ScenePlan plan(options, tools, terminal, open(name));
+    plan.append_to(all);
+    if (why.empty() && !plan.reasons().empty()) why = plan.reasons().front();
   }
   if (all.empty()) {
     throw UsageError(
-        "nothing to measure: none of the tests applies to the scenes and policies asked for");
+        "nothing to measure: none of the tests applies to the scenes, devices and policies asked "
+        "for (" +
+        why + ")");
   }
   return all;
 }

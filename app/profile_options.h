@@ -18,17 +18,18 @@ struct ProfileOptions : CommonOptions {
   std::vector<std::string> tests;     ///< empty: all that apply
   std::string size = "256";
   MeasuringOptions measuring;
-  std::string out;          ///< session folder; empty: a new one among the user's data
-  std::string update_case;  ///< empty: as the structure's settings say
-  std::string device = "cpu";
+  std::string out;                   ///< session folder; empty: a new one among the user's data
+  std::string update_case;           ///< empty: as the structure's settings say
+  std::vector<std::string> devices;  ///< empty: the scene's own preference, else cpu
 };
 
 /// Makes a scene from its name or path; throws scene::InputError.
 using SceneOpener = std::function<std::shared_ptr<const scene::Scene>(const std::string&)>;
 
-/// Opens the scenes and lists everything to measure, scene by scene, structure by structure, in the
-/// order asked for. A test that does not apply is left out, with a warning if it was asked for by
-/// name. Throws UsageError for a wrong option or if nothing is left, scene::InputError.
+/// Opens the scenes and lists everything to measure, scene by scene, device by device, structure by
+/// structure, in the order asked for; no device is opened. A test that does not apply is left out,
+/// with a warning if it was asked for by name. Throws UsageError for a wrong option or if nothing
+/// is left, scene::InputError.
 std::vector<WorkloadSpec> list_workloads(const ProfileOptions& options, const WorkloadTools& tools,
                                          Terminal& terminal);
 /// The same with scenes from `open`, so that several calls may share them.

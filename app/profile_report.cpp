@@ -93,7 +93,7 @@ std::string frame_table(const std::vector<SummaryRow>& rows) {
   const ConfigurationCells configurations(rows);
   for (const char* title :
        {"frames", "ms a frame ± 95 % CI", "frames/s", "animate", "build", "update", "transfer",
-        "render", "builds", "updates", "SAH cost", "Mrays/s", "hits"}) {
+        "render", "sent", "builds", "updates", "SAH cost", "Mrays/s", "hits"}) {
     table.add_column(title);
   }
   for (const SummaryRow& row : rows) {
@@ -108,8 +108,8 @@ std::string frame_table(const std::vector<SummaryRow>& rows) {
              row.mean.value > 0 ? fmt::format("{:.1f}", 1.0 / row.mean.value) : "",
              percent(row.shares[Phase::animate]), percent(row.shares[Phase::build]),
              percent(row.shares[Phase::update]), percent(row.shares[Phase::transfer]),
-             percent(row.shares[Phase::render]), count(Phase::build), count(Phase::update),
-             figure(counter_value(row, "sah_cost"), 1),
+             percent(row.shares[Phase::render]), bytes(counter_value(row, "transfer_bytes")),
+             count(Phase::build), count(Phase::update), figure(counter_value(row, "sah_cost"), 1),
              figure(counter_value(row, "mrays_per_s"), 3), figure(counter_value(row, "hits"))});
   }
   return table.empty() ? std::string() : "\nFrames\n" + table.text();
@@ -181,15 +181,21 @@ std::string report_text(const ProfileReport& report) {
                   report.state == energy::SessionState::complete
                       ? std::string()
                       : fmt::format(" ({})", energy::to_string(report.state)));
+  if (report.gpu) text += fmt::format("GPU: {}\n", report.gpu->name);
   if (report.rows.empty()) return text + "\nNothing was measured.\n";
-  return text + build_table(report.rows) + frame_table(report.rows) + energy_text(report);
+  return text + build_table(report.rows) + frame_table(report.rows) +
+         transfer_text(report.transfers, report.rows) + energy_text(report);
 }
 
 std::string report_json(const ProfileReport& report) {
   std::string json = fmt::format(
-      "{{\n  \"session\": {},\n  \"state\": {},\n  \"energy\": {{\"provenance\": {}, "
+      "{{\n  \"session\": {},\n  \"state\": {},\n  \"gpu\": {},\n  \"energy\": {{\"provenance\": "
+      "{}, "
       "\"detail\": {}}},\n  \"sampling_share_of_a_core\": {},\n  \"results\": ",
       json_text(report.folder.string()), json_text(energy::to_string(report.state)),
+      report.gpu ? fmt::format("{{\"name\": {}, \"version\": {}}}", json_text(report.gpu->name),
+                               json_text(report.gpu->version))
+                 : "null",
       json_text(energy::to_string(report.sensor.origin)), json_text(report.sensor.detail),
       report.sampling ? energy::csv_number(report.sampling->share()) : "null");
   std::vector<std::string> results;
@@ -202,7 +208,13 @@ std::string report_json(const ProfileReport& report) {
     const auto columns = columns_of(row.configuration, {});
     phases.push_back(json_object(energy::phase_header(columns), energy::to_record(row)));
   }
-  json += json_list(results) + ",\n  \"phases\": " + json_list(phases);
+  std::vector<std::string> transfers;
+  for (const TransferFigures& figures : report.transfers) {
+    const auto columns = columns_of(figures.configuration, {});
+    transfers.push_back(json_object(transfer_header(columns.configuration), to_record(figures)));
+  }
+  json += json_list(results) + ",\n  \"phases\": " + json_list(phases) +
+          ",\n  \"transfers\": " + json_list(transfers);
   return json + "\n}\n";
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/gpu_device.h"
+#include "app/transfer_derivation.h"
 #include "energy/provenance.h"
 #include "energy/sampling/sampler.h"
 #include "energy/session.h"
@@ -16,6 +18,7 @@ struct ProfileReport {
   std::filesystem::path folder;
   energy::SessionState state = energy::SessionState::complete;
   energy::Provenance sensor;
+  std::optional<GpuInfo> gpu;  ///< that the devices gpu and raster draw with, if they take part
   std::vector<energy::SummaryRow> rows;
   std::vector<energy::PhaseRow> phases;  ///< of the total, all configurations
   /// For each configuration its name and what was found out about its figures.
@@ -24,11 +27,12 @@ struct ProfileReport {
     std::vector<std::string> sentences;
   };
   std::vector<Notes> notes;
+  std::vector<TransferFigures> transfers;  ///< derive_transfers() of the session
   std::optional<energy::SamplerCost> sampling;
 };
 
-/// For people: where the joules come from, where the session lies, and a table of the builds and
-/// one of the frames, each only if there are any.
+/// For people: where the joules come from, where the session lies, what the graphics device is, and
+/// tables of the builds, the frames and the transfers, each only if there are any.
 std::string report_text(const ProfileReport& report);
 
 /// The same as one JSON object. Each result has the columns of summary.csv by name; numbers are

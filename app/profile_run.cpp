@@ -4,7 +4,10 @@
 #include "app/number_text.h"
 #include "app/profile_folder.h"
 #include "app/profile_report.h"
+#include "app/session_input.h"
+#include "app/transfer_derivation.h"
 #include "energy/machine.h"
+#include "renderer/gl/error.h"
 
 #include <fmt/format.h>
 
@@ -32,45 +35,46 @@ void tell_duration(const energy::Plan& plan, std::size_t configurations, Termina
 
 /// What holds for every configuration and so is not a column.
 std::vector<energy::KeyValue> common_settings(const ProfileOptions& options,
-                                              const std::vector<WorkloadSpec>& specs) {
-  std::vector<energy::KeyValue> settings{{"memory", options.memory},
-                                         {"threads", rendering_threads(specs)}};
+                                              const std::vector<WorkloadSpec>& specs,
+                                              const std::optional<GpuInfo>& gpu) {
+  std::vector<energy::KeyValue> settings{{"memory", options.memory}};
+  if (std::string threads = rendering_threads(specs); !threads.empty()) {
+    settings.push_back({"threads", std::move(threads)});
+  }
+  for (energy::KeyValue& setting : gpu_settings(gpu)) settings.push_back(std::move(setting));
   if (!options.update_case.empty()) settings.push_back({"update_case", options.update_case});
   for (const std::string& setting : options.settings) settings.push_back({"set", setting});
   return settings;
 }
 
 energy::SessionInfo session_info(const ProfileOptions& options,
-                                 const std::vector<WorkloadSpec>& specs) {
+                                 const std::vector<WorkloadSpec>& specs,
+                                 const std::optional<GpuInfo>& gpu) {
   energy::SessionInfo info;
   info.program = "encore " ENCORE_VERSION;
   info.command_line = energy::read_command_line();
   info.started_utc = utc_now();
   info.machine = energy::read_machine();
   info.scenes = scene_names(specs);
-  info.settings = common_settings(options, specs);
+  info.settings = common_settings(options, specs, gpu);
   return info;
 }
 
-/// How a session ends, as the program's exit code.
-ExitCode exit_code(SessionState state) {
-  switch (state) {
-    case SessionState::interrupted:
-      return ExitCode::interrupted;
-    case SessionState::failed:
-      return ExitCode::mismatch;
-    default:
-      return ExitCode::ok;
-  }
-}
+/// How a run ended.
+struct Ending {
+  SessionState state = SessionState::complete;
+  ExitCode code = ExitCode::ok;
+};
+constexpr Ending kInterrupted{SessionState::interrupted, ExitCode::interrupted};
 
 /// Measures all of `specs` into `report`, in the plan's order; how it ended.
-SessionState measure_all(const std::vector<WorkloadSpec>& specs, Experiment& experiment,
-                         const std::atomic<bool>& stop, Terminal& terminal, ProfileReport& report) {
+Ending measure_all(const std::vector<WorkloadSpec>& specs, Experiment& experiment,
+                   const std::atomic<bool>& stop, Terminal& terminal, ProfileReport& report) {
+  Ending ending;
   const std::vector<std::size_t> order = energy::measuring_order(experiment.plan(), specs.size());
   std::vector<std::uint32_t> done(specs.size(), 0);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (stop) return SessionState::interrupted;
+    if (stop) return kInterrupted;
     WorkloadSpec spec = specs[order[i]];
     spec.repeat = ++done[order[i]];
     const auto progress = [&](double share, std::string_view doing) {
@@ -87,10 +91,14 @@ SessionState measure_all(const std::vector<WorkloadSpec>& specs, Experiment& exp
     } catch (const MismatchError& error) {
       terminal.progress_done();
       fmt::print(stderr, "encore: {}\n", error.what());
-      return SessionState::failed;
+      return {SessionState::failed, ExitCode::mismatch};
+    } catch (const renderer::gl::GlError& error) {
+      terminal.progress_done();
+      fmt::print(stderr, "encore: {} was not measured: {}\n", workload_name(spec), error.what());
+      ending = {SessionState::failed, ExitCode::failure};
     }
   }
-  return stop ? SessionState::interrupted : SessionState::complete;
+  return stop ? kInterrupted : ending;
 }
 
 }  // namespace
@@ -105,9 +113,31 @@ std::vector<std::string> scene_names(const std::vector<WorkloadSpec>& specs) {
   return names;
 }
 
+std::optional<GpuInfo> open_gpu_for(const std::vector<WorkloadSpec>& specs,
+                                    const WorkloadTools& tools, Terminal& terminal) {
+  const auto needs_it = [](const WorkloadSpec& spec) { return uses_opengl(spec.device); };
+  if (std::none_of(specs.begin(), specs.end(), needs_it)) return std::nullopt;
+  GpuInfo gpu = tools.open_gpu();
+  terminal.info("GPU: " + gpu.name);
+  return gpu;
+}
+
+std::vector<energy::KeyValue> gpu_settings(const std::optional<GpuInfo>& gpu) {
+  if (!gpu) return {};
+  return {{"gl_renderer", gpu->name}, {"gl_version", gpu->version}};
+}
+
+std::optional<GpuInfo> gpu_of(const energy::SessionInfo& info) {
+  GpuInfo gpu{configuration_value(info.settings, "gl_renderer"),
+              configuration_value(info.settings, "gl_version")};
+  if (gpu.name.empty()) return std::nullopt;
+  return gpu;
+}
+
 std::string rendering_threads(const std::vector<WorkloadSpec>& specs) {
   std::vector<std::pair<std::string, unsigned>> of_scene;
   for (const WorkloadSpec& spec : specs) {
+    if (spec.device != Device::cpu) continue;
     const unsigned threads = spec.threads > 0 ? static_cast<unsigned>(spec.threads)
                                               : std::max(1U, std::thread::hardware_concurrency());
     const std::pair<std::string, unsigned> entry{spec.scene->name, threads};
@@ -129,7 +159,8 @@ std::string rendering_threads(const std::vector<WorkloadSpec>& specs) {
 ProfileResult run_profile(const ProfileOptions& options, const WorkloadTools& tools,
                           const std::atomic<bool>& stop, Terminal& terminal) {
   const std::vector<WorkloadSpec> specs = list_workloads(options, tools, terminal);
-  const energy::SessionInfo info = session_info(options, specs);
+  const std::optional<GpuInfo> gpu = open_gpu_for(specs, tools, terminal);
+  const energy::SessionInfo info = session_info(options, specs, gpu);
   std::string name = info.scenes.front();
   if (info.scenes.size() > 1) name += fmt::format("-and-{}-more", info.scenes.size() - 1);
 
@@ -137,12 +168,17 @@ ProfileResult run_profile(const ProfileOptions& options, const WorkloadTools& to
   ProfileReport report;
   report.folder = make_session_folder(options.out, info.started_utc, name);
   report.sensor = experiment.info().sensor;
+  report.gpu = gpu;
   experiment.open(report.folder);
   tell_duration(experiment.plan(), specs.size(), terminal);
-  report.state =
-      experiment.run([&] { return measure_all(specs, experiment, stop, terminal, report); });
+  Ending ending;
+  report.state = experiment.run([&] {
+    ending = measure_all(specs, experiment, stop, terminal, report);
+    return ending.state;
+  });
+  report.transfers = write_transfers(report.folder, report.rows, report.phases);
   report.sampling = experiment.sampling_cost();
-  return {exit_code(report.state), options.json ? report_json(report) : report_text(report)};
+  return {ending.code, options.json ? report_json(report) : report_text(report)};
 }
 
 }  // namespace encore::app

@@ -4,9 +4,12 @@
 #include "app/profile_options.h"
 #include "app/terminal.h"
 #include "app/workloads.h"
+#include "energy/session.h"
 
 #include <atomic>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace encore::app {
 
@@ -19,14 +22,26 @@ struct ProfileResult {
 /// The names of the scenes of these tests, each once, in order.
 std::vector<std::string> scene_names(const std::vector<WorkloadSpec>& specs);
 
-/// Threads that render: one number, or "2 (toys), 4 (bunny)" where scenes ask for different ones.
+/// Opens the graphics device if one of these tests needs it, and names it in a line of information.
+/// Throws renderer::gl::GlUnavailable.
+std::optional<GpuInfo> open_gpu_for(const std::vector<WorkloadSpec>& specs,
+                                    const WorkloadTools& tools, Terminal& terminal);
+/// As settings of a session, and back.
+std::vector<energy::KeyValue> gpu_settings(const std::optional<GpuInfo>& gpu);
+std::optional<GpuInfo> gpu_of(const energy::SessionInfo& info);
+
+/// Threads that render on the CPU: one number, or "2 (toys), 4 (bunny)" where scenes ask for
+/// different ones; empty if nothing renders there.
 std::string rendering_threads(const std::vector<WorkloadSpec>& specs);
 
 /// Measures everything that the options ask for, one configuration after the other, and writes the
 /// session as it goes. Once `stop` is set it ends after the current operation with what it has
 /// (ExitCode::interrupted). A structure that differs from brute force ends it with
-/// ExitCode::mismatch and a message on standard error. Throws UsageError and scene::InputError
-/// before anything is written, energy::SessionError if the session cannot be.
+/// ExitCode::mismatch and a message on standard error. A configuration that fails on the graphics
+/// device is told and left out, the others are measured, and it ends with ExitCode::failure. Throws
+/// UsageError, scene::InputError and, where a device needs OpenGL and there is none,
+/// renderer::gl::GlUnavailable before anything is measured or written, energy::SessionError if the
+/// session cannot be.
 ProfileResult run_profile(const ProfileOptions& options, const WorkloadTools& tools,
                           const std::atomic<bool>& stop, Terminal& terminal);
 

@@ -1,5 +1,6 @@
 #include "app/study_file.h"
 
+#include "app/device.h"
 #include "app/exit_code.h"
 #include "energy/battery_life/battery_toml.h"
 #include "scene/text_suggestion.h"
@@ -50,6 +51,13 @@ Check structure_names() {
   return known_word("structure", names, [](const std::string& word) {
     return word == "all" || accel::parse_structure_kind(word).has_value();
   });
+}
+
+Check device_names() {
+  std::vector<std::string_view> names;
+  for (const Device device : all_devices()) names.push_back(to_string(device));
+  return known_word("device", names,
+                    [](const std::string& word) { return parse_device(word).has_value(); });
 }
 
 Check one_of(const std::string& what, const std::vector<std::string_view>& names) {
@@ -177,7 +185,7 @@ StudyGroup read_group(TomlTable& table) {
   group.place = table.place();
   group.name = table.text("name").value_or("");
   if (group.name.empty()) table.fail("name", "a group needs a name");
-  group.device = words(table, "device", one_of("device", {"cpu", "gpu"}), {"cpu"}).front();
+  group.devices = words(table, "device", device_names(), {"cpu"});
   group.scenes = words(table, "scenes", anything);
   if (group.scenes.empty()) table.fail("scenes", "a group needs scenes");
   group.structures = words(table, "structures", structure_names(), {"all"});

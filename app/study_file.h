@@ -14,8 +14,8 @@ namespace encore::app {
 /// A part of a study: every combination of its lists is a test.
 struct StudyGroup {
   std::string name;
-  std::string place;  ///< "file:line:column"
-  std::string device = "cpu";
+  std::string place;                 ///< "file:line:column"
+  std::vector<std::string> devices;  ///< "cpu", "gpu", "raster"
   std::vector<std::string> scenes;
   std::vector<std::string> structures;
   std::vector<std::string> policies;

@@ -1,11 +1,13 @@
 #include "app/study_matrix.h"
 
 #include "app/exit_code.h"
+#include "renderer/gl/error.h"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 namespace encore::app {
@@ -42,12 +44,62 @@ ProfileOptions options_of(const StudyGroup& group, const Study& study, const std
   options.quiet = true;
   options.scenes = group.scenes;
   options.search_path = study.search_path;
+  options.devices = group.devices;
   options.structures = group.structures;
   options.policies = group.policies;
   options.tests = {test};
   options.settings = group.settings;
   options.threads = group.threads;
   return options;
+}
+
+/// For a table's cell: line breaks and what they indent become single blanks.
+std::string in_one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const bool blank = c == '\n' || c == ' ';
+    if (blank && (line.empty() || line.back() == ' ')) continue;
+    line += blank ? ' ' : c;
+  }
+  return line;
+}
+
+/// Whether there is OpenGL, asked when first needed.
+class GpuQuestion {
+ public:
+  explicit GpuQuestion(const WorkloadTools& tools) : tools_(tools) {}
+
+  bool usable() {
+    if (!gpu_ && problem_.empty()) {
+      try {
+        gpu_ = tools_.open_gpu();
+      } catch (const renderer::gl::GlUnavailable& error) {
+        problem_ = in_one_line(error.what());
+      }
+    }
+    return gpu_.has_value();
+  }
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+  [[nodiscard]] const std::optional<GpuInfo>& info() const { return gpu_; }
+
+ private:
+  const WorkloadTools& tools_;
+  std::optional<GpuInfo> gpu_;
+  std::string problem_;
+};
+
+/// Adds the tests of a group, but for those of devices that are not there.
+void take(StudyMatrix& matrix, GpuQuestion& gpu, const StudyGroup& group,
+          std::vector<WorkloadSpec> specs) {
+  std::size_t without = 0;
+  for (WorkloadSpec& spec : specs) {
+    if (uses_opengl(spec.device) && !gpu.usable()) {
+      ++without;
+    } else {
+      matrix.tests.push_back(std::move(spec));
+    }
+  }
+  if (without > 0) matrix.left_out.push_back({group.name, without, gpu.problem()});
 }
 
 }  // namespace
@@ -65,6 +117,7 @@ StudyMatrix spell_out(const Study& study, const WorkloadTools& tools, Terminal& 
   const SceneOpener open = [&](const std::string& name) { return cache(name); };
 
   StudyMatrix matrix;
+  GpuQuestion gpu(tools);
   for (const StudyGroup& group : study.groups) {
     std::vector<WorkloadSpec> specs;
     const std::vector<std::string> all{"build", "static", "dynamic"};
@@ -94,14 +147,9 @@ StudyMatrix spell_out(const Study& study, const WorkloadTools& tools, Terminal& 
         }
       }
     }
-    if (group.device != "cpu") {
-      matrix.left_out.push_back(
-          {group.name, specs.size(),
-           fmt::format("device {} is not in this version of the program", group.device)});
-      continue;
-    }
-    for (WorkloadSpec& spec : specs) matrix.tests.push_back(std::move(spec));
+    take(matrix, gpu, group, std::move(specs));
   }
+  matrix.gpu = gpu.info();
   return matrix;
 }
 

@@ -9,7 +9,10 @@
 #include "app/profile_table.h"
 #include "app/study_matrix.h"
 #include "app/study_progress.h"
+#include "app/transfer_derivation.h"
 #include "energy/machine.h"
+#include "energy/session_csv.h"
+#include "renderer/gl/error.h"
 
 #include <fmt/format.h>
 
@@ -120,10 +123,15 @@ energy::SessionInfo session_info(const Study& study, const StudyMatrix& matrix) 
   info.started_utc = utc_now();
   info.machine = energy::read_machine();
   info.scenes = scene_names(matrix.tests);
-  info.settings = {{"threads", rendering_threads(matrix.tests)},
-                   {"study", study.name},
-                   {"study_file", study.file},
-                   {"study_digest", study.digest}};
+  if (std::string threads = rendering_threads(matrix.tests); !threads.empty()) {
+    info.settings.push_back({"threads", std::move(threads)});
+  }
+  for (energy::KeyValue& setting : gpu_settings(matrix.gpu)) {
+    info.settings.push_back(std::move(setting));
+  }
+  info.settings.insert(
+      info.settings.end(),
+      {{"study", study.name}, {"study_file", study.file}, {"study_digest", study.digest}});
   return info;
 }
 
@@ -136,7 +144,6 @@ class StudyRun {
 
   SessionState run(const std::vector<WorkloadSpec>& tests, ProfileReport& report) {
     const std::size_t all = before_ + tests.size();
-    bool mismatch = false;
     for (std::size_t i = 0; i < tests.size(); ++i) {
       if (stop_ || !pause_()) return SessionState::interrupted;
       const std::string name = tests[i].group + ": " + workload_name(tests[i]);
@@ -154,12 +161,18 @@ class StudyRun {
         // A wrong structure spoils its own test, not the nights of the others.
         terminal_.progress_done();
         fmt::print(stderr, "encore: {}\n", error.what());
-        mismatch = true;
+        failed_ = ExitCode::mismatch;
+      } catch (const renderer::gl::GlError& error) {
+        terminal_.progress_done();
+        fmt::print(stderr, "encore: {} was not measured: {}\n", name, error.what());
+        if (failed_ == ExitCode::ok) failed_ = ExitCode::failure;
       }
     }
     if (stop_) return SessionState::interrupted;
-    return mismatch ? SessionState::failed : SessionState::complete;
+    return failed_ == ExitCode::ok ? SessionState::complete : SessionState::failed;
   }
+  /// What went wrong, the worst of it.
+  [[nodiscard]] ExitCode failed() const { return failed_; }
 
  private:
   Experiment& experiment_;
@@ -167,11 +180,14 @@ class StudyRun {
   const PausePoint& pause_;
   Terminal& terminal_;
   std::size_t before_;
+  ExitCode failed_ = ExitCode::ok;
 };
 
-ExitCode exit_code(SessionState state) {
-  if (state == SessionState::interrupted) return ExitCode::interrupted;
-  return state == SessionState::failed ? ExitCode::mismatch : ExitCode::ok;
+/// Derives the transfers of the whole session, of which `report` has what was measured now.
+std::vector<TransferFigures> write_all_transfers(const ProfileReport& report, bool resumed) {
+  if (!resumed) return write_transfers(report.folder, report.rows, report.phases);
+  const energy::Session session = energy::read_session(report.folder);
+  return write_transfers(report.folder, session.summaries, session.phases);
 }
 
 }  // namespace
@@ -205,6 +221,7 @@ StudyResult run_study(const StudyOptions& options, const WorkloadTools& tools,
 
   ProfileReport report;
   report.sensor = sensor;
+  report.gpu = matrix.gpu;
   if (progress) {
     report.folder = options.resume;
     experiment.resume(report.folder, progress->info, progress->reached);
@@ -214,10 +231,14 @@ StudyResult run_study(const StudyOptions& options, const WorkloadTools& tools,
     experiment.open(report.folder);
   }
   terminal.info("session: " + report.folder.string());
+  if (matrix.gpu) terminal.info("GPU: " + matrix.gpu->name);
   StudyRun run(experiment, stop, pause, terminal, done);
   report.state = experiment.run([&] { return run.run(left, report); });
+  report.transfers = write_all_transfers(report, progress.has_value());
   report.sampling = experiment.sampling_cost();
-  return {exit_code(report.state), options.json ? report_json(report) : report_text(report)};
+  const ExitCode code =
+      report.state == SessionState::interrupted ? ExitCode::interrupted : run.failed();
+  return {code, options.json ? report_json(report) : report_text(report)};
 }
 
 }  // namespace encore::app

@@ -1,36 +1,17 @@
 #include "app/workload_frames.h"
 
-#include "renderer/camera_rays.h"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace encore::app {
-
-namespace {
 
 using accel::Policy;
 using energy::Phase;
 using scene::FrameSequence;
 using scene::TriangleChange;
-
-/// Hits of the camera rays of a picture, row by row.
-std::uint64_t count_hits(const accel::AccelerationStructure& structure, const scene::Camera& camera,
-                         ImageSize size) {
-  const auto frame = renderer::make_camera_frame(camera, size.width, size.height);
-  std::vector<scene::Ray> rays(static_cast<std::size_t>(size.width));
-  std::vector<scene::Hit> hits(rays.size());
-  std::uint64_t found = 0;
-  for (int y = 0; y < size.height; ++y) {
-    renderer::camera_rays(frame, {0, y, size.width, y + 1}, rays);
-    structure.intersect(rays, hits);
-    found += static_cast<std::uint64_t>(
-        std::count_if(hits.begin(), hits.end(), [](const scene::Hit& hit) { return hit.found(); }));
-  }
-  return found;
-}
-
-}  // namespace
 
 double frame_step_s(const scene::Scene& scene) {
   constexpr double kStep = 1.0 / 30.0;
@@ -56,28 +37,25 @@ bool changes_triangle_count(const scene::Scene& scene) {
   return false;
 }
 
-FrameWorkload::FrameWorkload(WorkloadSpec spec, const WorkloadTools& tools)
-    : SceneWorkload(std::move(spec), tools), renderer_(tools.make_renderer(spec_.threads)) {}
-
-SceneWorkload::RayFigures FrameWorkload::ray_figures() const {
-  return {static_cast<double>(spec_.size.width) * spec_.size.height,
-          static_cast<double>(count_hits(*structure_, spec_.scene->camera, spec_.size))};
-}
-
-void FrameWorkload::init_renderer() {
-  renderer_->init({spec_.scene.get(), &triangles_, structure_.get()});
-}
-
-void FrameWorkload::render(energy::PhaseLog& log) {
-  const auto mark = log.mark(Phase::render);
-  renderer_->draw(spec_.scene->camera, spec_.size.width, spec_.size.height);
-}
-
 void StaticWorkload::prepare() {
   go_to(0.0);
-  build();
-  check("build");
+  if (structure_) build();
   init_renderer();
+  check("build");
+}
+
+void DeviceUpdateWorkload::prepare() {
+  go_to(0.0);
+  build();
+  init_renderer();
+  check("build");
+  if (fitting() != Fitting::device) {
+    throw std::runtime_error(
+        fmt::format("{} cannot be updated on device {}; measure test build on device cpu",
+                    structure_->name(), to_string(spec_.device)));
+  }
+  fit_unmarked();
+  check("update");
 }
 
 DynamicWorkload::DynamicWorkload(WorkloadSpec spec, const WorkloadTools& tools)
@@ -89,146 +67,157 @@ double DynamicWorkload::time_of(std::uint64_t frame) const {
 }
 
 DynamicWorkload::Reaction DynamicWorkload::reaction(TriangleChange change) const {
-  if (change == TriangleChange::none || spec_.policy == Policy::fixed) return Reaction::nothing;
-  const bool refits = spec_.policy == Policy::refit && structure_->can_refit();
-  return refits && change == TriangleChange::moved ? Reaction::update : Reaction::build;
+  const bool follows = structure_ && spec_.policy != Policy::fixed;
+  if (change == TriangleChange::none || !follows) return Reaction::nothing;
+  return fitting() != Fitting::none && change == TriangleChange::moved ? Reaction::update
+                                                                       : Reaction::build;
 }
 
 void DynamicWorkload::start() {
   frame_ = 0;
+  pending_ = TriangleChange::none;
   go_to(time_of(0));
-  build();
+  if (structure_) build();
   built_over_ = triangles_.triangles.size();
 }
 
 void DynamicWorkload::prepare() {
   start();
-  check("build");
-
-  // A structure that follows the motion must still be right after a good part of the loop.
-  if (spec_.policy != Policy::fixed) {
-    const TriangleChange change = go_to(time_of(0) + 0.37 * spec_.scene->duration_s());
-    switch (reaction(change)) {
-      case Reaction::nothing:
-        break;
-      case Reaction::build:
-        build();
-        check("rebuild");
-        break;
-      case Reaction::update:
-        update();
-        check("update");
-        break;
-    }
-    start();
-  }
   init_renderer();
+  check("build");
+  if (!structure_ || spec_.policy == Policy::fixed) return;
+  check_later_frame();
+  start();
+  refresh_unmarked();
 }
 
-void DynamicWorkload::build_marked(energy::PhaseLog& log) {
-  const auto mark = log.mark(Phase::build);
-  build();
-}
-
-void DynamicWorkload::update_marked(energy::PhaseLog& log) {
-  const auto mark = log.mark(Phase::update);
-  update();
-}
-
-void DynamicWorkload::advance(energy::PhaseLog& log) {
-  ++frame_;
-  TriangleChange change = TriangleChange::none;
-  {
-    const auto mark = log.mark(Phase::animate);
-    change = go_to(time_of(frame_));
+void DynamicWorkload::check_later_frame() {
+  // A structure that follows the motion must still be right after a good part of the loop.
+  switch (reaction(go_to(time_of(0) + 0.37 * spec_.scene->duration_s()))) {
+    case Reaction::nothing:
+      break;
+    case Reaction::build:
+      build();
+      refresh_unmarked();
+      check("rebuild");
+      break;
+    case Reaction::update:
+      fit_unmarked();
+      check("update");
+      break;
   }
+}
+
+void DynamicWorkload::animate(energy::PhaseLog& log) {
+  ++frame_;
+  const auto mark = log.mark(Phase::animate);
+  pending_ = std::max(pending_, go_to(time_of(frame_)));
+}
+
+void DynamicWorkload::build_noted(energy::PhaseLog& log) {
+  build_marked(log);
+  built_over_ = triangles_.triangles.size();
+}
+
+void DynamicWorkload::follow(energy::PhaseLog& log) {
+  const TriangleChange change = std::exchange(pending_, TriangleChange::none);
   const Reaction what = reaction(change);
-  if (what == Reaction::build) build_marked(log);
-  if (what == Reaction::update) update_marked(log);
+  if (what == Reaction::build) build_noted(log);
   // A structure left alone refers to triangles by place, so there must still be as many.
-  if (what == Reaction::build) built_over_ = triangles_.triangles.size();
-  if (triangles_.triangles.size() != built_over_) {
+  if (structure_ && triangles_.triangles.size() != built_over_) {
     throw std::runtime_error("the triangle count of scene " + spec_.scene->name +
                              " changed, which policy static cannot follow; use rebuild");
   }
-  if (change != TriangleChange::none) renderer_->refresh();
+  const bool on_device = fitting() == Fitting::device;
+  if (what == Reaction::update && !on_device) update_marked(log);
+  if (change != TriangleChange::none) send(log);
+  if (what == Reaction::update && on_device) update_marked(log);
 }
 
-void DynamicWorkload::operation(energy::PhaseLog& log) {
-  advance(log);
+void DynamicWorkload::frame(energy::PhaseLog& log) {
+  animate(log);
+  follow(log);
   render(log);
 }
 
 std::vector<Phase> DynamicWorkload::separable() const {
-  std::vector<Phase> phases{Phase::animate, Phase::render};
-  if (spec_.policy != Policy::fixed) {
-    const bool refits = spec_.policy == Policy::refit && structure_->can_refit();
-    phases.insert(phases.begin() + 1, refits ? Phase::update : Phase::build);
+  std::vector<Phase> phases{Phase::animate};
+  if (structure_ && spec_.policy != Policy::fixed) {
+    phases.push_back(fitting() != Fitting::none ? Phase::update : Phase::build);
   }
+  if (transfers()) phases.push_back(Phase::transfer);
+  phases.push_back(Phase::render);
   return phases;
 }
 
 void DynamicWorkload::run_alone(Phase phase, energy::PhaseLog& log) {
   switch (phase) {
     case Phase::animate:
-      advance(log);
+      animate(log);
+      if (!transfers()) follow(log);
       return;
     case Phase::build:
-      build_marked(log);
-      renderer_->refresh();
+      build_noted(log);
+      if (!transfers()) send(log);
       return;
     case Phase::update:
       update_marked(log);
-      renderer_->refresh();
+      if (!transfers()) send(log);
+      return;
+    case Phase::transfer:
+      animate(log);
+      follow(log);
       return;
     case Phase::render:
       render(log);
       return;
-    case Phase::transfer:
-      return;
   }
-}
-
-bool ForcedWorkload::updates() const {
-  return spec_.policy == Policy::refit && structure_->can_refit();
 }
 
 void ForcedWorkload::prepare() {
   go_to(0.0);
   build();
-  check("build");
-  if (updates()) {
-    update();
-    check("update");
-  }
   init_renderer();
+  check("build");
+  if (fitting() == Fitting::none) return;
+  fit_unmarked();
+  check("update");
 }
 
 void ForcedWorkload::follow(energy::PhaseLog& log) {
-  if (updates()) {
-    const auto mark = log.mark(Phase::update);
-    update();
-  } else {
-    const auto mark = log.mark(Phase::build);
-    build();
-  }
-  renderer_->refresh();
+  const Fitting who = fitting();
+  if (who == Fitting::none) build_marked(log);
+  if (who == Fitting::host) update_marked(log);
+  send(log);
+  if (who == Fitting::device) update_marked(log);
 }
 
-void ForcedWorkload::operation(energy::PhaseLog& log) {
+void ForcedWorkload::frame(energy::PhaseLog& log) {
   follow(log);
   render(log);
 }
 
 std::vector<Phase> ForcedWorkload::separable() const {
-  return {updates() ? Phase::update : Phase::build, Phase::render};
+  const Fitting who = fitting();
+  std::vector<Phase> phases{who == Fitting::none ? Phase::build : Phase::update};
+  // Nothing is sent to a device that updates its own copy, so there is nothing to repeat.
+  if (transfers() && who != Fitting::device) phases.push_back(Phase::transfer);
+  phases.push_back(Phase::render);
+  return phases;
 }
 
 void ForcedWorkload::run_alone(Phase phase, energy::PhaseLog& log) {
   if (phase == Phase::render) {
     render(log);
-  } else {
+  } else if (phase == Phase::transfer) {
+    // Only what was just built or updated can be sent.
     follow(log);
+  } else if (phase == Phase::build) {
+    build_marked(log);
+    if (!transfers()) send(log);
+  } else {
+    update_marked(log);
+    if (!transfers()) send(log);
   }
 }
 

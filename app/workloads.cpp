@@ -7,6 +7,8 @@
 #include "app/workload_frames.h"
 #include "renderer/camera_rays.h"
 #include "renderer/cpu_tracer.h"
+#include "renderer/gpu_tracer.h"
+#include "renderer/raster_renderer.h"
 
 #include <fmt/format.h>
 
@@ -109,15 +111,29 @@ std::string_view to_string(TestKind test) {
   return "";
 }
 
+WorkloadTools standard_tools(const std::shared_ptr<GpuContext>& gpu) {
+  const auto make_renderer = [gpu](Device device,
+                                   int threads) -> std::unique_ptr<renderer::Renderer> {
+    if (device == Device::gpu) return std::make_unique<renderer::GpuTracer>(gpu->get());
+    if (device == Device::raster) return std::make_unique<renderer::RasterRenderer>(gpu->get());
+    return std::make_unique<renderer::CpuTracer>(threads);
+  };
+  return {accel::make_structure, make_renderer, [gpu] { return gpu->info(); }};
+}
+
 WorkloadTools standard_tools() {
-  return {accel::make_structure,
-          [](int threads) { return std::make_unique<renderer::CpuTracer>(threads); }};
+  return standard_tools(std::make_shared<GpuContext>(std::nullopt));
 }
 
 std::string workload_name(const WorkloadSpec& spec) {
-  std::string name = fmt::format("{}, {}, {}", spec.scene->name,
-                                 accel::to_string(spec.structure.kind), to_string(spec.test));
-  if (spec.test != TestKind::fixed) name += fmt::format(" ({})", accel::to_string(spec.policy));
+  std::string name = spec.scene->name;
+  const bool traces = traces_rays(spec.device);
+  if (traces) name += fmt::format(", {}", accel::to_string(spec.structure.kind));
+  if (spec.device != Device::cpu) name += fmt::format(", {}", to_string(spec.device));
+  name += fmt::format(", {}", to_string(spec.test));
+  if (traces && spec.test != TestKind::fixed) {
+    name += fmt::format(" ({})", accel::to_string(spec.policy));
+  }
   if (spec.test != TestKind::build) {
     name += fmt::format(", {}x{}", spec.size.width, spec.size.height);
   }
@@ -127,19 +143,20 @@ std::string workload_name(const WorkloadSpec& spec) {
 
 std::vector<energy::KeyValue> configuration_of(const WorkloadSpec& spec, std::size_t triangles) {
   const bool renders = spec.test != TestKind::build;
-  // Nothing moves in the static test, so no policy is at work there.
-  const Policy policy = spec.test == TestKind::fixed ? Policy::fixed : spec.policy;
+  const bool traces = traces_rays(spec.device);
+  // No policy is at work where nothing moves, or there is no structure.
+  const Policy policy = spec.test == TestKind::fixed || !traces ? Policy::fixed : spec.policy;
   const auto* bvh = std::get_if<accel::BvhSettings>(&spec.structure.settings);
   const bool updates = policy == Policy::refit && bvh != nullptr;
   return {{"group", spec.group},
           {"scene", spec.scene->name},
-          {"device", "cpu"},
-          {"structure", std::string(accel::to_string(spec.structure.kind))},
+          {"device", std::string(to_string(spec.device))},
+          {"structure", traces ? std::string(accel::to_string(spec.structure.kind)) : "none"},
           {"policy", std::string(accel::to_string(policy))},
           {"test", std::string(to_string(spec.test))},
           {"width", renders ? std::to_string(spec.size.width) : std::string()},
           {"height", renders ? std::to_string(spec.size.height) : std::string()},
-          {"memory", std::string(accel::to_string(spec.structure.memory))},
+          {"memory", traces ? std::string(accel::to_string(spec.structure.memory)) : ""},
           {"update_case", updates ? std::string(accel::to_string(bvh->update_case)) : ""},
           {"repeat", std::to_string(spec.repeat)},
           {"triangles", std::to_string(triangles)}};
@@ -168,73 +185,108 @@ std::vector<std::string> counter_columns() {
           "mrays_per_s",
           "hits",
           "rays_per_operation",
+          "transfer_bytes",
+          "converted_bytes",
+          "device_transfer_s",
+          "device_render_s",
           "joules_per_mray",
           "joules_per_pixel",
           "energy_delay_js"};
 }
 
 SceneWorkload::SceneWorkload(WorkloadSpec spec, const WorkloadTools& tools)
-    : spec_(std::move(spec)), structure_(tools.make_structure(spec_.structure)) {}
+    : spec_(std::move(spec)) {
+  if (traces_rays(spec_.device)) structure_ = tools.make_structure(spec_.structure);
+}
 
 std::string SceneWorkload::name() const {
-  return fmt::format("{}, {}, {}", spec_.scene->name, structure_->name(), to_string(spec_.test));
+  return fmt::format("{}, {}, {}", spec_.scene->name,
+                     structure_ ? structure_->name() : to_string(spec_.device),
+                     to_string(spec_.test));
 }
 
 std::vector<energy::KeyValue> SceneWorkload::configuration() const {
   return configuration_of(spec_, triangles_.triangles.size());
 }
 
-std::vector<Counter> SceneWorkload::counters(const energy::PerPhase<energy::Seconds>& mean) const {
-  const accel::BuildStats stats = structure_->stats();
+void SceneWorkload::append_structure_counters(std::vector<Counter>& counters) const {
   const StructureKind kind = spec_.structure.kind;
-  const bool structured = kind != StructureKind::brute;
-  const auto figure = [](auto value, bool applies) {
-    return applies ? std::optional<double>(static_cast<double>(value)) : std::nullopt;
+  const bool structured = structure_ != nullptr && kind != StructureKind::brute;
+  const accel::BuildStats stats = structured ? structure_->stats() : accel::BuildStats{};
+  const auto add = [&](const char* name, auto value, bool applies) {
+    counters.push_back({name, structured && applies
+                                  ? std::optional<double>(static_cast<double>(value))
+                                  : std::nullopt});
   };
+  add("nodes", stats.nodes, true);
+  add("leaves", stats.leaves, true);
+  add("references", stats.references, true);
+  add("structure_bytes", stats.bytes, true);
+  add("allocations", stats.allocations, true);
+  add("allocated_bytes", stats.allocated_bytes, true);
+  add("triangle_box_tests", stats.triangle_box_tests, tests_triangles(kind));
+  add("max_depth", stats.max_depth, !is_grid(kind));
+  add("grid_x", stats.grid_size[0], is_grid(kind));
+  add("grid_y", stats.grid_size[1], is_grid(kind));
+  add("grid_z", stats.grid_size[2], is_grid(kind));
+  // Boxes that the device fitted by itself are not at hand.
+  add("sah_cost", stats.sah_cost, !host_structure_is_stale());
+  counters.back().unavailable = structured && host_structure_is_stale();
+  add("references_per_leaf", stats.references_per_leaf(), true);
+  add("duplication", stats.duplication(), true);
+}
+
+std::vector<Counter> SceneWorkload::counters(const energy::PerPhase<energy::Seconds>& mean) const {
+  std::vector<Counter> counters;
+  append_structure_counters(counters);
   const RayFigures rays = ray_figures();
   std::optional<double> mrays;
   if (rays.rays && mean[Phase::render].value > 0) {
     mrays = *rays.rays / mean[Phase::render].value / 1e6;
   }
-  return {{"nodes", figure(stats.nodes, structured)},
-          {"leaves", figure(stats.leaves, structured)},
-          {"references", figure(stats.references, structured)},
-          {"structure_bytes", figure(stats.bytes, structured)},
-          {"allocations", figure(stats.allocations, structured)},
-          {"allocated_bytes", figure(stats.allocated_bytes, structured)},
-          {"triangle_box_tests", figure(stats.triangle_box_tests, tests_triangles(kind))},
-          {"max_depth", figure(stats.max_depth, structured && !is_grid(kind))},
-          {"grid_x", figure(stats.grid_size[0], is_grid(kind))},
-          {"grid_y", figure(stats.grid_size[1], is_grid(kind))},
-          {"grid_z", figure(stats.grid_size[2], is_grid(kind))},
-          {"sah_cost", figure(stats.sah_cost, structured)},
-          {"references_per_leaf", figure(stats.references_per_leaf(), structured)},
-          {"duplication", figure(stats.duplication(), structured)},
-          {"mrays_per_s", mrays},
-          {"hits", rays.hits},
-          {"rays_per_operation", rays.rays},
-          // Filled in when the energy is known (add_energy_figures).
-          {"joules_per_mray", {}, rays.rays.has_value()},
-          {"joules_per_pixel", {}, rays.rays.has_value()},
-          {"energy_delay_js", {}, true}};
+  const DeviceFigures device = device_figures();
+  counters.insert(counters.end(),
+                  {{"mrays_per_s", mrays},
+                   {"hits", rays.hits},
+                   {"rays_per_operation", rays.rays},
+                   {"transfer_bytes", device.uploaded_bytes},
+                   {"converted_bytes", device.converted_bytes},
+                   {"device_transfer_s", device.transfer_s, device.transfer_unknown},
+                   {"device_render_s", device.render_s, device.render_unknown},
+                   // Filled in when the energy is known (add_energy_figures).
+                   {"joules_per_mray", {}, rays.rays.has_value()},
+                   {"joules_per_pixel", {}, rays.pixels},
+                   {"energy_delay_js", {}, true}});
+  return counters;
+}
+
+accel::HitComparison SceneWorkload::compare(const accel::AccelerationStructure& truth,
+                                            std::span<const scene::Ray> rays) const {
+  return accel::compare_hits(*structure_, truth, rays);
+}
+
+std::string SceneWorkload::traced_name() const {
+  return std::string(structure_->name());
 }
 
 void SceneWorkload::check(std::string_view when) const {
+  if (structure_ == nullptr) return;
   accel::BruteForce brute;
   brute.build(triangles_.triangles);
   const auto rays = sample_rays(spec_.scene->camera, triangles_.triangles, *structure_);
-  const accel::HitComparison result = accel::compare_hits(*structure_, brute, rays);
+  const accel::HitComparison result = compare(brute, rays);
   if (result.mismatches() == 0) return;
   throw MismatchError(fmt::format(
       "{}: {} is wrong after the {}, so it was not measured: {} of {} rays differ from brute "
       "force; the first: {}: expected {}, found {}",
-      spec_.scene->name, structure_->name(), when, result.mismatches(), result.rays,
+      spec_.scene->name, traced_name(), when, result.mismatches(), result.rays,
       describe(result.first_ray), describe(result.first_expected), describe(result.first_found)));
 }
 
 std::unique_ptr<SceneWorkload> make_workload(const WorkloadSpec& spec, const WorkloadTools& tools) {
   switch (spec.test) {
     case TestKind::build:
+      if (spec.device != Device::cpu) return std::make_unique<DeviceUpdateWorkload>(spec, tools);
       return std::make_unique<BuildWorkload>(spec, tools);
     case TestKind::fixed:
       return std::make_unique<StaticWorkload>(spec, tools);
@@ -246,21 +298,32 @@ std::unique_ptr<SceneWorkload> make_workload(const WorkloadSpec& spec, const Wor
   return nullptr;
 }
 
-std::string reason_to_skip(TestKind test, Policy policy, const scene::Scene& scene) {
-  if (test == TestKind::build && policy == Policy::fixed) {
-    return "policy static builds nothing, so test build has nothing to measure";
+std::string reason_to_skip(const WorkloadSpec& spec) {
+  const bool builds = spec.test == TestKind::build || spec.test == TestKind::forced;
+  if (!traces_rays(spec.device) && builds) {
+    return fmt::format("device {} has no structure, so test {} has nothing to measure",
+                       to_string(spec.device), to_string(spec.test));
   }
-  if (test == TestKind::forced && policy == Policy::fixed) {
-    return "policy static builds nothing, so test forced has nothing to measure";
+  if (spec.device == Device::gpu && spec.structure.kind == StructureKind::brute) {
+    return "brute force is the truth that others are held to; device gpu has no traversal for it";
   }
-  if (test != TestKind::animated) return {};
-  if (!scene.animated()) {
+  if (builds && spec.policy == Policy::fixed) {
+    return fmt::format("policy static builds nothing, so test {} has nothing to measure",
+                       to_string(spec.test));
+  }
+  if (spec.device == Device::gpu && spec.test == TestKind::build && spec.policy != Policy::refit) {
+    return "structures are built on the CPU, so test build on device gpu would be that of cpu "
+           "again; only a refit happens on the device itself";
+  }
+  if (spec.test != TestKind::animated) return {};
+  if (!spec.scene->animated()) {
     return fmt::format("scene {} does not move, so test dynamic has nothing to measure",
-                       scene.name);
+                       spec.scene->name);
   }
-  if (policy == Policy::fixed && changes_triangle_count(scene)) {
+  if (traces_rays(spec.device) && spec.policy == Policy::fixed &&
+      changes_triangle_count(*spec.scene)) {
     return fmt::format("the triangle count of scene {} changes, which policy static cannot follow",
-                       scene.name);
+                       spec.scene->name);
   }
   return {};
 }

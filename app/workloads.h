@@ -2,7 +2,10 @@
 
 #include "accel/acceleration_structure.h"
 #include "accel/settings.h"
+#include "accel/verify.h"
 #include "app/common_options.h"
+#include "app/device.h"
+#include "app/gpu_device.h"
 #include "energy/workload.h"
 #include "renderer/renderer.h"
 #include "scene/scene.h"
@@ -19,7 +22,9 @@ namespace encore::app {
 
 /// What is looped over. The thesis' three tests (section 5.1) are build, static and forced.
 enum class TestKind {
-  build,     ///< a loop of builds, or of updates with Policy::refit, forced though nothing changed
+  /// A loop of builds, or of updates with Policy::refit, forced though nothing changed. Structures
+  /// are built on the CPU, so on the GPU there are only its own updates.
+  build,
   fixed,     ///< "static": build once, then a loop of frames
   animated,  ///< "dynamic": animate, build or update by the policy, render, frame by frame
   forced,    ///< build or update, render, frame by frame, though nothing moves
@@ -30,15 +35,22 @@ std::string_view to_string(TestKind test);
 struct WorkloadTools {
   std::function<std::unique_ptr<accel::AccelerationStructure>(const accel::StructureSpec&)>
       make_structure;
-  std::function<std::unique_ptr<renderer::Renderer>(int threads)> make_renderer;
+  /// `threads`: of the CPU; 0: all. For Device::gpu it is a renderer::Tracer.
+  std::function<std::unique_ptr<renderer::Renderer>(Device, int threads)> make_renderer;
+  /// Opens the graphics device and says what it is. Throws renderer::gl::GlUnavailable.
+  std::function<GpuInfo()> open_gpu;
 };
-/// The program's own structures and its CPU renderer.
+/// The program's own structures and renderers. Those that need OpenGL share `gpu`, which makes its
+/// context when the first of them is made or the device is opened.
+WorkloadTools standard_tools(const std::shared_ptr<GpuContext>& gpu);
+/// With the best graphics device that there is.
 WorkloadTools standard_tools();
 
 /// One configuration to measure.
 struct WorkloadSpec {
   std::shared_ptr<const scene::Scene> scene;
-  accel::StructureSpec structure;
+  Device device = Device::cpu;
+  accel::StructureSpec structure;  ///< of no meaning where no rays are traced
   accel::Policy policy = accel::Policy::rebuild;
   TestKind test = TestKind::build;
   ImageSize size;            ///< of the tests that render
@@ -47,14 +59,14 @@ struct WorkloadSpec {
   int threads = 0;           ///< for rendering; 0: all
 };
 
-/// For people: "toys, bvh-median, dynamic (refit), 256x256".
+/// For people: "toys, bvh-median, gpu, dynamic (refit), 256x256"; the CPU goes without saying.
 std::string workload_name(const WorkloadSpec& spec);
 
 /// What identifies a configuration, in the order of configuration_columns().
 std::vector<energy::KeyValue> configuration_of(const WorkloadSpec& spec, std::size_t triangles);
 
-/// A structure that does not return the hits of brute force. what() names scene, structure, the
-/// ray and both answers.
+/// A structure, or a device's copy of it, that does not return the hits of brute force. what()
+/// names scene, structure, device, the ray and both answers.
 class MismatchError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -64,10 +76,12 @@ class MismatchError : public std::runtime_error {
 std::vector<std::string> configuration_columns();
 std::vector<std::string> counter_columns();
 
-/// What the tests have in common: a scene at a time, and a structure over its triangles.
+/// What the tests have in common: a scene at a time, and a structure over its triangles where rays
+/// are traced.
 ///
 /// prepare() holds the structure to brute force over a sample of rays, also after an update where
-/// the test does updates, and throws MismatchError: a wrong structure is never timed.
+/// the test does updates, and throws MismatchError: a wrong structure is never timed. On the GPU it
+/// is the device's own answers that are compared.
 class SceneWorkload : public energy::Workload {
  public:
   SceneWorkload(WorkloadSpec spec, const WorkloadTools& tools);
@@ -82,8 +96,23 @@ class SceneWorkload : public energy::Workload {
   struct RayFigures {
     std::optional<double> rays;  ///< camera rays an operation
     std::optional<double> hits;  ///< of the last frame
+    bool pixels = false;         ///< whether there is a picture
   };
   [[nodiscard]] virtual RayFigures ray_figures() const { return {}; }
+  /// What a device adds that works on copies. Means over the measured operations.
+  struct DeviceFigures {
+    std::optional<double> uploaded_bytes;
+    std::optional<double> converted_bytes;
+    /// By the device's own clock. Not known: it happened, but the device has no clock.
+    std::optional<double> transfer_s;
+    std::optional<double> render_s;
+    bool transfer_unknown = false;
+    bool render_unknown = false;
+  };
+  [[nodiscard]] virtual DeviceFigures device_figures() const { return {}; }
+  /// Whether the device fits its own copy of the structure, so that the host's is not the one that
+  /// is traced any more.
+  [[nodiscard]] virtual bool host_structure_is_stale() const { return false; }
 
   /// Brings the triangles to a time of the animation; nothing else.
   scene::TriangleChange go_to(double time_s) {
@@ -91,18 +120,27 @@ class SceneWorkload : public energy::Workload {
   }
   void build() { structure_->build(triangles_.triangles); }
   void update() { structure_->update(triangles_.triangles); }
-  /// Compares the structure, as it is, with brute force; `when` says after what.
+  /// Compares the hits of what is traced, as it is, with brute force; `when` says after what. Does
+  /// nothing where no rays are traced.
   void check(std::string_view when) const;
+  /// The comparison itself, and the name of what was compared.
+  [[nodiscard]] virtual accel::HitComparison compare(const accel::AccelerationStructure& truth,
+                                                     std::span<const scene::Ray> rays) const;
+  [[nodiscard]] virtual std::string traced_name() const;
 
   WorkloadSpec spec_;
   scene::TriangleList triangles_;
-  std::unique_ptr<accel::AccelerationStructure> structure_;
+  std::unique_ptr<accel::AccelerationStructure> structure_;  ///< null where no rays are traced
+
+ private:
+  void append_structure_counters(std::vector<energy::Counter>& counters) const;
 };
 
 /// Makes the workload of `spec.test`. The scene outlives it by shared ownership.
 std::unique_ptr<SceneWorkload> make_workload(const WorkloadSpec& spec, const WorkloadTools& tools);
 
-/// Why this test has nothing to measure for this scene and policy; empty if it has.
-std::string reason_to_skip(TestKind test, accel::Policy policy, const scene::Scene& scene);
+/// Why this test has nothing to measure for this scene, device, structure and policy; empty if it
+/// has.
+std::string reason_to_skip(const WorkloadSpec& spec);
 
 }  // namespace encore::app

@@ -72,6 +72,7 @@ class Run {
   }
 
   void measure() {
+    workload_.begin_measuring();
     read_sources();
     const Seconds start = clock_.now();
     std::uint64_t operations = 0;

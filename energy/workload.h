@@ -46,6 +46,9 @@ class Workload {
   /// of each phase; the operation's time is the sum of its phases.
   virtual void operation(PhaseLog& log) = 0;
 
+  /// Said once, after the warm-up and before the first operation that is measured.
+  virtual void begin_measuring() {}
+
   /// The phases that can be run alone between operations, any number of times and in any order:
   /// what attribution by regression varies. Empty if there are none.
   [[nodiscard]] virtual std::vector<Phase> separable() const { return {}; }

@@ -1,4 +1,5 @@
 #include "app/machine_log.h"
+#include "app/transfer_derivation.h"
 #include "app/workloads.h"
 #include "energy/session_columns.h"
 #include "energy/session_energy_columns.h"
@@ -39,6 +40,7 @@ TEST(SessionFormat, DocumentsExactlyTheColumnsThatAreWritten) {
   EXPECT_EQ(documented("convergence.csv"), energy::convergence_header(columns));
   EXPECT_EQ(documented("windows.csv"), energy::window_header(columns));
   EXPECT_EQ(documented("machine.csv"), machine_log_header());
+  EXPECT_EQ(documented("transfer.csv"), transfer_header(configuration_columns()));
   EXPECT_EQ(documented("events.csv"), energy::event_header());
 }
 

@@ -107,7 +107,8 @@ TEST_F(Profile, InterruptKeepsWhatWasMeasured) {
   const WorkloadTools tools = [&] {
     WorkloadTools t = fakes.tools();
     // Interrupt while the second structure's renderer is made: the first one is done by then.
-    t.make_renderer = [this, renderers = 0](int) mutable -> std::unique_ptr<renderer::Renderer> {
+    t.make_renderer = [this, renderers = 0](Device,
+                                            int) mutable -> std::unique_ptr<renderer::Renderer> {
       if (++renderers == 2) stop = true;
       return std::make_unique<FakeRenderer>(fakes.frames);
     };
@@ -188,7 +189,15 @@ TEST_F(Profile, WrongWordsAreUsageErrorsBeforeAnythingIsWritten) {
   };
   wrong([&] { options.tests = {"stetic"}; });
   wrong([&] { options.policies = {"refiit"}; });
-  wrong([&] { options.device = "gpu"; });
+  wrong([&] { options.devices = {"cpu", "gpo"}; });
+  wrong([&] {
+    options.devices = {"gpu"};
+    options.structures = {"brute"};
+  });
+  wrong([&] {
+    options.devices = {"raster"};
+    options.tests = {"build", "forced"};
+  });
   wrong([&] { options.size = "0"; });
   wrong([&] { options.update_case = "typical"; });
   wrong([&] { options.tests = {"dynamic"}; });  // a still scene: nothing is left to measure

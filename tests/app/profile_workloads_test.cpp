@@ -108,7 +108,13 @@ TEST_F(ProfileWorkloads, PolicyStaticCannotFollowAChangingCount) {
   scene::FrameSequence sequence;
   sequence.frames = {two_triangles(1), two_triangles(2)};
   const auto scene = small_scene(sequence);
-  EXPECT_FALSE(reason_to_skip(TestKind::animated, Policy::fixed, *scene).empty());
+  WorkloadSpec spec;
+  spec.scene = scene;
+  spec.policy = Policy::fixed;
+  spec.test = TestKind::animated;
+  EXPECT_FALSE(reason_to_skip(spec).empty());
+  spec.device = Device::raster;
+  EXPECT_EQ(reason_to_skip(spec), "") << "without a structure nothing has to follow";
   EXPECT_THROW(measure(TestKind::animated, Policy::fixed, scene), std::runtime_error);
 }
 

@@ -1,0 +1,185 @@
+#include "app/hit_difference.h"
+#include "app/workload_frames.h"
+#include "renderer/camera_rays.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+namespace encore::app {
+
+namespace {
+
+using energy::Phase;
+
+/// Hits of the camera rays of a picture, row by row.
+std::uint64_t count_hits(const accel::AccelerationStructure& structure, const scene::Camera& camera,
+                         ImageSize size) {
+  const auto frame = renderer::make_camera_frame(camera, size.width, size.height);
+  std::vector<scene::Ray> rays(static_cast<std::size_t>(size.width));
+  std::vector<scene::Hit> hits(rays.size());
+  std::uint64_t found = 0;
+  for (int y = 0; y < size.height; ++y) {
+    renderer::camera_rays(frame, {0, y, size.width, y + 1}, rays);
+    structure.intersect(rays, hits);
+    found += static_cast<std::uint64_t>(
+        std::count_if(hits.begin(), hits.end(), [](const scene::Hit& hit) { return hit.found(); }));
+  }
+  return found;
+}
+
+std::uint64_t count_hits(renderer::Tracer& tracer, const scene::Camera& camera, ImageSize size) {
+  std::vector<scene::Hit> hits;
+  tracer.trace_hits(camera, size.width, size.height, hits);
+  return static_cast<std::uint64_t>(
+      std::count_if(hits.begin(), hits.end(), [](const scene::Hit& hit) { return hit.found(); }));
+}
+
+}  // namespace
+
+FrameWorkload::FrameWorkload(WorkloadSpec spec, const WorkloadTools& tools)
+    : SceneWorkload(std::move(spec), tools),
+      renderer_(tools.make_renderer(spec_.device, spec_.threads)) {
+  if (spec_.device == Device::cpu || !traces_rays(spec_.device)) return;
+  tracer_ = dynamic_cast<renderer::Tracer*>(renderer_.get());
+  if (tracer_ == nullptr) {
+    throw std::logic_error(
+        fmt::format("the renderer of device {} traces no rays", to_string(spec_.device)));
+  }
+}
+
+void FrameWorkload::operation(energy::PhaseLog& log) {
+  counting_ = true;
+  frame(log);
+  counting_ = false;
+  totals_.operations += 1.0;
+}
+
+void FrameWorkload::init_renderer() {
+  renderer_->init({spec_.scene.get(), &triangles_, structure_.get()});
+}
+
+void FrameWorkload::render(energy::PhaseLog& log) {
+  {
+    const auto mark = log.mark(Phase::render);
+    renderer_->draw(spec_.scene->camera, spec_.size.width, spec_.size.height);
+  }
+  if (!counting_ || !transfers()) return;
+  const std::optional<double> seconds = renderer_->last_draw_s();
+  ++totals_.draws;
+  totals_.draws_timed = totals_.draws_timed && seconds.has_value();
+  totals_.render_s += seconds.value_or(0.0);
+}
+
+void FrameWorkload::send(energy::PhaseLog& log) {
+  if (!transfers()) {
+    renderer_->refresh();
+    return;
+  }
+  {
+    const auto mark = log.mark(Phase::transfer);
+    renderer_->refresh();
+  }
+  if (!counting_) return;
+  const renderer::Transfer sent = renderer_->last_transfer();
+  totals_.uploaded_bytes += static_cast<double>(sent.uploaded_bytes);
+  totals_.converted_bytes += static_cast<double>(sent.converted_bytes);
+  ++totals_.transfers;
+  totals_.transfers_timed = totals_.transfers_timed && sent.device_s.has_value();
+  totals_.transfer_s += sent.device_s.value_or(0.0);
+}
+
+void FrameWorkload::build_marked(energy::PhaseLog& log) {
+  const auto mark = log.mark(Phase::build);
+  build();
+}
+
+void FrameWorkload::update_marked(energy::PhaseLog& log) {
+  const auto mark = log.mark(Phase::update);
+  if (fitting() == Fitting::device) {
+    tracer_->refit();
+  } else {
+    update();
+  }
+}
+
+FrameWorkload::Fitting FrameWorkload::fitting() const {
+  if (!structure_ || spec_.policy != accel::Policy::refit || !structure_->can_refit()) {
+    return Fitting::none;
+  }
+  return tracer_ != nullptr && tracer_->can_refit() ? Fitting::device : Fitting::host;
+}
+
+void FrameWorkload::refresh_unmarked() {
+  renderer_->refresh();
+}
+
+void FrameWorkload::fit_unmarked() {
+  if (fitting() == Fitting::device) {
+    renderer_->refresh();
+    tracer_->refit();
+  } else {
+    update();
+    renderer_->refresh();
+  }
+}
+
+accel::HitComparison FrameWorkload::compare(const accel::AccelerationStructure& truth,
+                                            std::span<const scene::Ray> rays) const {
+  if (tracer_ == nullptr) return SceneWorkload::compare(truth, rays);
+  std::vector<scene::Hit> expected(rays.size());
+  std::vector<scene::Hit> found(rays.size());
+  truth.intersect(rays, expected);
+  tracer_->trace_rays(rays, found);
+  accel::HitComparison comparison;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const bool same = std::memcmp(&expected[i], &found[i], sizeof(scene::Hit)) == 0;
+    // One that rounds otherwise is not wrong; 'encore verify' tells how often that is.
+    if (!same && comparison.mismatches() == 0 &&
+        explain_difference(triangles_.triangles, rays[i], expected[i], found[i]).explanation !=
+            Explanation::none) {
+      comparison.add(rays[i], expected[i], expected[i], true);
+    } else {
+      comparison.add(rays[i], expected[i], found[i], same);
+    }
+  }
+  return comparison;
+}
+
+std::string FrameWorkload::traced_name() const {
+  std::string name = SceneWorkload::traced_name();
+  if (tracer_ != nullptr) {
+    name += fmt::format(" on device {} ({})", to_string(spec_.device), renderer_->device_name());
+  }
+  return name;
+}
+
+SceneWorkload::RayFigures FrameWorkload::ray_figures() const {
+  if (!structure_) return {{}, {}, true};
+  const scene::Camera& camera = spec_.scene->camera;
+  // A device's hits are its own: the host's structure may be of an earlier time.
+  const std::uint64_t hits = tracer_ != nullptr ? count_hits(*tracer_, camera, spec_.size)
+                                                : count_hits(*structure_, camera, spec_.size);
+  return {static_cast<double>(spec_.size.width) * spec_.size.height, static_cast<double>(hits),
+          true};
+}
+
+SceneWorkload::DeviceFigures FrameWorkload::device_figures() const {
+  if (!transfers() || !(totals_.operations > 0.0)) return {};
+  DeviceFigures figures;
+  figures.uploaded_bytes = totals_.uploaded_bytes / totals_.operations;
+  figures.converted_bytes = totals_.converted_bytes / totals_.operations;
+  if (totals_.transfers > 0) {
+    figures.transfer_unknown = !totals_.transfers_timed;
+    if (totals_.transfers_timed) figures.transfer_s = totals_.transfer_s / totals_.operations;
+  }
+  if (totals_.draws > 0) {
+    figures.render_unknown = !totals_.draws_timed;
+    if (totals_.draws_timed) figures.render_s = totals_.render_s / totals_.operations;
+  }
+  return figures;
+}
+
+}  // namespace encore::app
