@@ -76,10 +76,11 @@ class RateNames {
 std::string rate_name(Phase phase, const std::string& device, RateGrouping grouping,
                       bool update_alone) {
   if (phase == Phase::transfer) return "transfer";
-  if (grouping == RateGrouping::processor) {
-    return phase == Phase::render && device != "cpu" ? device : "cpu";
-  }
+  // A device draws, and updates the copy that it has; all else is the CPU's work.
+  const bool on_device = device != "cpu" && (phase == Phase::render || phase == Phase::update);
+  if (grouping == RateGrouping::processor) return on_device ? device : "cpu";
   if (phase == Phase::render) return "render (" + device + ")";
+  if (phase == Phase::update && on_device) return "update (" + device + ")";
   if (phase == Phase::update && update_alone) return "update";
   return "build";
 }
@@ -88,10 +89,11 @@ bool is_dynamic(const SummaryRow& row) {
   return configuration_value(row.configuration, "test") == "dynamic";
 }
 
-/// Whether a test that calibrates consists of updates.
+/// Whether a test that calibrates consists of updates by the CPU.
 bool tests_update_alone(const energy::Session& session) {
   return std::any_of(session.summaries.begin(), session.summaries.end(), [](const SummaryRow& row) {
-    return !is_dynamic(row) && row.joules && row.shares[Phase::update].value_or(0.0) > 0.5;
+    return !is_dynamic(row) && row.joules && row.shares[Phase::update].value_or(0.0) > 0.5 &&
+           configuration_value(row.configuration, "device") == "cpu";
   });
 }
 
@@ -133,7 +135,12 @@ bool belongs(const std::vector<KeyValue>& test, const std::vector<KeyValue>& dyn
       !same("structure") || !same("memory")) {
     return false;
   }
-  if (std::string_view(kind) == "build") return same("policy") && same("update_case");
+  if (std::string_view(kind) == "build") {
+    // Structures are built on the CPU, and updated where they are.
+    const bool updates = configuration_value(dynamic, "policy") == "refit";
+    const std::string builder = updates ? configuration_value(dynamic, "device") : "cpu";
+    return configuration_value(test, "device") == builder && same("policy") && same("update_case");
+  }
   return same("device") && same("width") && same("height");
 }
 

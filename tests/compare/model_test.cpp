@@ -122,6 +122,56 @@ TEST(Model, ARateAPhasePredictsDynamicTests) {
   EXPECT_GT(single.rms, 0.02);
 }
 
+/// The last configuration of a session as that of another device and policy.
+void set_last(energy::Session& session, const std::string& device, const std::string& policy) {
+  auto& configuration = session.summaries.back().configuration;
+  for (energy::KeyValue& part : configuration) {
+    if (part.key == "device") part.value = device;
+    if (part.key == "policy") part.value = policy;
+  }
+  for (std::size_t i = session.frames.size() - 3; i < session.frames.size(); ++i) {
+    session.frames[i].configuration = configuration;
+  }
+}
+
+/// What was called building becomes updating.
+void set_last_to_update(energy::Session& session) {
+  auto& shares = session.summaries.back().shares;
+  shares[Phase::update] = shares[Phase::build];
+  shares[Phase::build].reset();
+}
+
+TEST(Model, ADevicesOwnUpdatesAreItsWorkAndItsBuildsTheCpus) {
+  const Machine gpu{.animate = 33.6, .build = 50.0, .render = 60.0, .transfer = 36.0};
+  energy::Session session = session_of({});
+  add(session, {}, "bvh-median", "build", {.build = 20.0});
+  add(session, gpu, "bvh-median", "build", {.build = 2.0});
+  set_last(session, "gpu", "refit");
+  set_last_to_update(session);
+  add(session, gpu, "bvh-median", "static", {.render = 40.0});
+  set_last(session, "gpu", "static");
+  // Rebuilt by the CPU, refitted by the GPU.
+  add(session, {.build = 33.6, .render = 60.0}, "bvh-median", "dynamic",
+      {.build = 20.0, .render = 40.0});
+  set_last(session, "gpu", "rebuild");
+  add(session, gpu, "bvh-median", "dynamic", {.build = 2.0, .render = 40.0});
+  set_last(session, "gpu", "refit");
+  set_last_to_update(session);
+
+  const ModelReport report = make_model_report("s", session, {});
+  const auto by_phase = rates_of(report.phase, report.by_phase);
+  EXPECT_NEAR(by_phase.at("build"), 33.6, 1e-9);
+  EXPECT_NEAR(by_phase.at("update (gpu)"), 50.0, 1e-9);
+  EXPECT_NEAR(by_phase.at("render (gpu)"), 60.0, 1e-9);
+  const auto by_processor = rates_of(report.processor, report.by_processor);
+  EXPECT_NEAR(by_processor.at("cpu"), 33.6, 1e-9);
+  EXPECT_GT(by_processor.at("gpu"), 50.0);
+
+  ASSERT_EQ(report.own.size(), 2U);
+  EXPECT_NEAR(report.own[0].watts, (33.6 * 20.0 + 60.0 * 40.0) / 60.0, 1e-9);
+  EXPECT_NEAR(report.own[1].watts, (50.0 * 2.0 + 60.0 * 40.0) / 42.0, 1e-9);
+}
+
 TEST(Model, OneRateIsEnoughForAMachineThatHasOne) {
   const Machine machine{.animate = 34.0, .build = 34.0, .render = 34.0, .transfer = 34.0};
   const ModelReport report = make_model_report("s", measured(machine), {});
