@@ -1,0 +1,92 @@
+// Drivers accept different dialects of GLSL, and tests meet few of them: so Khronos' reference
+// compiler, which accepts the standard only, must accept every variant of every shader.
+#include "renderer/gl/shader_source.h"
+#include "renderer/trace_defines.h"
+#include "tests/support/files.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace encore;
+using renderer::TraceOutput;
+using renderer::TraceVariant;
+
+/// Compiles with glslangValidator; what it says, empty if nothing is wrong. `stage`: comp, vert,
+/// frag.
+std::string complaints(const std::string& file, const std::string& stage,
+                       const std::vector<std::string>& defines) {
+  const test::TemporaryFolder folder;
+  const auto shader =
+      folder.write("shader." + stage, renderer::gl::assemble_shader(file, defines).text);
+  const auto log = folder.path() / "log";
+  const std::string command = std::string(ENCORE_GLSLANG) + " -s -S " + stage + " \"" +
+                              shader.string() + "\" > \"" + log.string() + "\" 2>&1";
+  if (std::system(command.c_str()) == 0) return {};
+  return "refused:\n" + test::contents_of(log);
+}
+
+class ReferenceCompiler : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::string(ENCORE_GLSLANG).empty()) {
+      GTEST_SKIP() << "glslangValidator was not there when the tests were configured (Debian: "
+                      "glslang-tools)";
+    }
+  }
+};
+
+TEST_F(ReferenceCompiler, NoticesWhatIsNoGlsl) {
+  EXPECT_NE(complaints("trace.comp", "comp", {"ENCORE_GROUP_X 8"}), "") << "a size is missing";
+}
+
+TEST_F(ReferenceCompiler, AcceptsEveryWayToTrace) {
+  for (const auto kind : {accel::StructureKind::grid_box, accel::StructureKind::kd_sah,
+                          accel::StructureKind::bvh_median}) {
+    for (const auto output :
+         {TraceOutput::picture, TraceOutput::hits, TraceOutput::counters, TraceOutput::ray_hits}) {
+      for (const int pausing : {0, 1, 2}) {
+        const TraceVariant variant{.kind = kind,
+                                   .depth = 40,
+                                   .output = output,
+                                   .pause_after = pausing > 0 ? 2048U : 0U,
+                                   .resumable = pausing > 1};
+        EXPECT_EQ(complaints("trace.comp", "comp", renderer::trace_defines(variant)), "")
+            << accel::to_string(kind) << ", output " << static_cast<int>(output) << ", pausing "
+            << pausing;
+      }
+    }
+  }
+}
+
+TEST_F(ReferenceCompiler, AcceptsEveryWayToShade) {
+  for (unsigned bits = 0; bits < 16; ++bits) {
+    std::vector<std::string> defines;
+    if ((bits & 1U) != 0) defines.emplace_back("ENCORE_NORMALS");
+    if ((bits & 2U) != 0) defines.emplace_back("ENCORE_COLORS");
+    if ((bits & 4U) != 0) defines.emplace_back("ENCORE_SPECULAR");
+    if ((bits & 8U) != 0) defines.emplace_back("ENCORE_LIGHTS");
+    EXPECT_EQ(complaints("raster.frag", "frag", defines), "") << bits;
+    const TraceVariant variant{.needs = {.normals = (bits & 1U) != 0,
+                                         .colors = (bits & 2U) != 0,
+                                         .specular = (bits & 4U) != 0},
+                               .lights = (bits & 8U) != 0};
+    EXPECT_EQ(complaints("trace.comp", "comp", renderer::trace_defines(variant)), "") << bits;
+  }
+  EXPECT_EQ(complaints("raster.vert", "vert", {}), "");
+}
+
+TEST_F(ReferenceCompiler, AcceptsEveryWayToRefit) {
+  for (const char* update_case : {"ENCORE_UPDATE_REAL", "ENCORE_UPDATE_BEST",
+                                  "ENCORE_UPDATE_AVERAGE", "ENCORE_UPDATE_WORST"}) {
+    EXPECT_EQ(complaints("refit.comp", "comp", {update_case, "ENCORE_GROUP_SIZE 128"}), "")
+        << update_case;
+  }
+  EXPECT_EQ(complaints("link_parents.comp", "comp", {"ENCORE_GROUP_SIZE 128"}), "");
+}
+
+}  // namespace
