@@ -40,8 +40,8 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
 
 int run(int argc, char** argv) {
   CLI::App app{
-      "ENCORE: what does it cost to build, update and trace an acceleration structure for this "
-      "scene?"};
+      "ENCORE: what does it cost to build, update, ship and trace an acceleration structure for "
+      "this scene?"};
   app.set_version_flag("--version", std::string("encore ") + ENCORE_VERSION);
   app.require_subcommand(1);
   app.footer(
