@@ -12,12 +12,6 @@ namespace encore::renderer {
 
 namespace {
 
-std::shared_ptr<gl::Context> made_current(std::shared_ptr<gl::Context> context) {
-  if (!context) throw std::invalid_argument("there is no OpenGL context to send the scene to");
-  context->make_current();
-  return context;
-}
-
 gpu::Material to_gpu(const scene::Material& material) {
   return {.diffuse = material.diffuse,
           .shininess = std::max(0.0F, material.shininess),
@@ -57,7 +51,7 @@ std::string buffer_name(int binding, std::string_view structure) {
 }  // namespace
 
 GpuScene::GpuScene(std::shared_ptr<gl::Context> context, bool with_structure)
-    : context_(made_current(std::move(context))),
+    : context_(gl::made_current(std::move(context))),
       with_structure_(with_structure),
       timer_(context_->capabilities().timestamp_bits) {}
 
@@ -92,22 +86,26 @@ Transfer GpuScene::upload_changes() {
 bool GpuScene::changed() const {
   const scene::TriangleList& list = *input_.triangles;
   return scene_version_ != input_.scene->version() || triangle_version_ != list.version ||
-         topology_version_ != list.topology_version || needs_.normals == list.normals.empty() ||
-         needs_.colors == list.colors.empty() ||
+         topology_version_ != list.topology_version ||
+         needs_ != shading_needs(*input_.scene, list) ||
          (with_structure_ && structure_version_ != input_.structure->version());
 }
 
 Transfer GpuScene::upload() {
   const scene::TriangleList& list = *input_.triangles;
   const ShadingNeeds before = std::exchange(needs_, shading_needs(*input_.scene, list));
-  const bool other_arrays = before.normals != needs_.normals || before.colors != needs_.colors;
 
   Transfer sum;
   timer_.begin();
-  if (topology_version_ != list.topology_version || other_arrays) {
+  if (topology_version_ != list.topology_version) {
     send_triangles(sum);
-  } else if (triangle_version_ != list.version) {
-    send_ranges(sum);
+  } else {
+    // What shading did not ask for until now was never sent; if it does not fit, nothing counts.
+    const auto version = std::exchange(topology_version_, std::nullopt);
+    if (needs_.normals && !before.normals) send(normals_, bytes_of(list.normals), sum);
+    if (needs_.colors && !before.colors) send(colors_, bytes_of(list.colors), sum);
+    topology_version_ = version;
+    if (triangle_version_ != list.version) send_ranges(sum);
   }
   if (with_structure_ && structure_version_ != input_.structure->version()) send_structure(sum);
   if (scene_version_ != input_.scene->version()) send_materials(sum);

@@ -35,12 +35,6 @@ constexpr std::size_t kMostResultBytes = std::size_t{16} << 20;
 constexpr int kRaysPerRow = 4096;
 constexpr std::size_t kRaysPerBatch = std::size_t{256} << 10;
 
-std::shared_ptr<gl::Context> made_current(std::shared_ptr<gl::Context> context) {
-  if (!context) throw std::invalid_argument("the GPU tracer needs an OpenGL context");
-  context->make_current();
-  return context;
-}
-
 gpu::CameraParameters to_gpu(const CameraFrame& frame) {
   gpu::CameraParameters camera{};
   camera.forward = frame.forward;
@@ -89,7 +83,7 @@ int rows_of_band(int width, std::size_t bytes_per_ray) {
 }  // namespace
 
 GpuTracer::GpuTracer(std::shared_ptr<gl::Context> context)
-    : context_(made_current(std::move(context))),
+    : context_(gl::made_current(std::move(context))),
       scene_(context_, true),
       timer_(context_->capabilities().timestamp_bits) {}
 

@@ -4,6 +4,7 @@
 #include "renderer/gl/error.h"
 #include "renderer/raster_state.h"
 #include "renderer/raster_view.h"
+#include "renderer/trace_defines.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/gpu_types.h"
 
@@ -36,7 +37,6 @@ void set_uniform(Uniform place, const glm::vec3& value) {
 }
 
 std::shared_ptr<gl::Context> with_clip_control(std::shared_ptr<gl::Context> context) {
-  if (!context) throw std::invalid_argument("there is no OpenGL context to draw in");
   const gl::Capabilities& found = context->capabilities();
   if (!found.clip_control) {
     throw gl::GlError("drawing without rays needs OpenGL 4.5 or GL_ARB_clip_control; " +
@@ -46,24 +46,19 @@ std::shared_ptr<gl::Context> with_clip_control(std::shared_ptr<gl::Context> cont
   return context;
 }
 
-std::vector<std::string> shading_defines(const GpuScene& scene) {
-  std::vector<std::string> defines;
-  if (scene.light_count() == 0) return defines;
-  defines.emplace_back("ENCORE_LIGHTS");
-  if (scene.needs().normals) defines.emplace_back("ENCORE_NORMALS");
-  if (scene.needs().colors) defines.emplace_back("ENCORE_COLORS");
-  if (scene.needs().specular) defines.emplace_back("ENCORE_SPECULAR");
-  return defines;
-}
-
 }  // namespace
 
 RasterRenderer::RasterRenderer(std::shared_ptr<gl::Context> context)
-    : context_(with_clip_control(std::move(context))),
+    : context_(with_clip_control(gl::made_current(std::move(context)))),
       scene_(context_, /*with_structure=*/false),
       timer_(context_->capabilities().timestamp_bits) {}
 
 RasterRenderer::~RasterRenderer() {
+  try {
+    context_->make_current();  // the members' memory is this context's
+  } catch (const gl::GlError&) {
+    return;  // it went with the context
+  }
   if (vertex_array_ != 0) glDeleteVertexArrays(1, &vertex_array_);
 }
 
@@ -124,7 +119,9 @@ void RasterRenderer::prepare() {
     bounds_ = list.bounds();
     bounds_version_ = list.version;
   }
-  program_ = context_->programs().graphics("raster.vert", "raster.frag", shading_defines(scene_));
+  std::vector<std::string> defines;
+  add_shading_defines(scene_.needs(), scene_.light_count() > 0, defines);
+  program_ = context_->programs().graphics("raster.vert", "raster.frag", std::move(defines));
   ready_ = true;
 }
 

@@ -112,10 +112,10 @@ void shade(const ShadingScene& input, std::span<const Ray> rays, std::span<const
 
 ShadingNeeds shading_needs(const scene::Scene& scene, const scene::TriangleList& triangles) {
   const auto shines = [](const Material& m) { return m.specular != glm::vec3(0.0F); };
-  return {.normals = !triangles.normals.empty(),
-          .colors = !triangles.colors.empty(),
-          .specular = !scene.lights.empty() &&
-                      std::any_of(scene.materials.begin(), scene.materials.end(), shines)};
+  const bool lit = !scene.lights.empty();
+  return {.normals = lit && !triangles.normals.empty(),
+          .colors = lit && !triangles.colors.empty(),
+          .specular = lit && std::any_of(scene.materials.begin(), scene.materials.end(), shines)};
 }
 
 ShadeFunction choose_shading(const ShadingNeeds& needs) {

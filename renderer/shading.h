@@ -14,11 +14,14 @@ namespace encore::renderer {
 /// commonly repeat the diffuse colour as the ambient one, made for a dim ambient light.)
 inline constexpr float kAmbientLight = 0.2F;
 
-/// What the shading of a scene has to do; whatever is off costs nothing in the inner loop.
+/// What the shading of a scene has to do; whatever is off costs nothing in the inner loop. Without
+/// light nothing is on: surfaces then show what they emit and reflect of the ambient light.
 struct ShadingNeeds {
   bool normals = false;   ///< interpolate shading normals
   bool colors = false;    ///< interpolate vertex colours
   bool specular = false;  ///< highlights: some material has a specular colour, and there is a light
+
+  friend bool operator==(const ShadingNeeds&, const ShadingNeeds&) = default;
 };
 
 ShadingNeeds shading_needs(const scene::Scene& scene, const scene::TriangleList& triangles);

@@ -47,10 +47,7 @@ void add_output(const TraceVariant& variant, std::vector<std::string>& defines) 
   switch (variant.output) {
     case TraceOutput::picture:
       defines.emplace_back("ENCORE_OUTPUT_PICTURE");
-      if (variant.needs.normals) defines.emplace_back("ENCORE_NORMALS");
-      if (variant.needs.colors) defines.emplace_back("ENCORE_COLORS");
-      if (variant.needs.specular) defines.emplace_back("ENCORE_SPECULAR");
-      if (variant.lights) defines.emplace_back("ENCORE_LIGHTS");
+      add_shading_defines(variant.needs, variant.lights, defines);
       return;
     case TraceOutput::hits:
       defines.emplace_back("ENCORE_OUTPUT_HITS");
@@ -66,6 +63,16 @@ void add_output(const TraceVariant& variant, std::vector<std::string>& defines) 
 }
 
 }  // namespace
+
+void add_shading_defines(const ShadingNeeds& needs, bool lights,
+                         std::vector<std::string>& defines) {
+  // Without light no surface is more than its own glow.
+  if (!lights) return;
+  defines.emplace_back("ENCORE_LIGHTS");
+  if (needs.normals) defines.emplace_back("ENCORE_NORMALS");
+  if (needs.colors) defines.emplace_back("ENCORE_COLORS");
+  if (needs.specular) defines.emplace_back("ENCORE_SPECULAR");
+}
 
 bool has_gpu_traversal(accel::StructureKind kind) {
   return traversal_of(kind) != Traversal::none;

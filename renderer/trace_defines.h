@@ -34,6 +34,10 @@ struct TraceVariant {
   bool resumable = false;  ///< whether a ray that pauses can go on, rather than give up
 };
 
+/// Adds what shaders/shading.glsl has to do for such a scene: ENCORE_LIGHTS if it has any, and only
+/// then ENCORE_NORMALS, ENCORE_COLORS and ENCORE_SPECULAR.
+void add_shading_defines(const ShadingNeeds& needs, bool lights, std::vector<std::string>& defines);
+
 /// Whether there is a traversal in GLSL for structures of this kind: all but brute.
 bool has_gpu_traversal(accel::StructureKind kind);
 
@@ -54,7 +58,7 @@ std::uint32_t paused_ray_words(const TraceVariant& variant);
 ///   ENCORE_GROUP_X n, ENCORE_GROUP_Y n   the work group
 ///   ENCORE_OUTPUT_PICTURE, _HITS, _COUNTERS  what is written, one of these
 ///   ENCORE_RAYS_FROM_BUFFER              rays that do not come from the camera
-///   ENCORE_NORMALS, _COLORS, _SPECULAR, _LIGHTS  pictures: what shading has to do
+///   ENCORE_LIGHTS, _NORMALS, _COLORS, _SPECULAR  pictures: add_shading_defines()
 ///   ENCORE_PAUSE_AFTER n                 software devices: pause_after
 ///   ENCORE_RESUMABLE                     software devices: resumable
 std::vector<std::string> trace_defines(const TraceVariant& variant);

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <stdexcept>
+#include <utility>
 
 namespace encore::renderer::gl {
 
@@ -59,6 +61,12 @@ DeviceListing try_candidate(const EglCandidate& candidate, int index) {
 }
 
 }  // namespace
+
+std::shared_ptr<Context> made_current(std::shared_ptr<Context> context) {
+  if (!context) throw std::invalid_argument("there is no OpenGL context to draw in");
+  context->make_current();
+  return context;
+}
 
 void Context::check(const std::string& doing) {
   const std::string reset = capabilities_.robust ? reset_reason() : std::string();

@@ -33,6 +33,9 @@ class Context {
   ProgramCache programs_;
 };
 
+/// The same context, made current in this thread. Throws std::invalid_argument for none.
+std::shared_ptr<Context> made_current(std::shared_ptr<Context> context);
+
 /// Makes a context without a window or display: surfaceless EGL on the machine's devices, hardware
 /// before software, else on the default display. `device`: only the device at this place of
 /// list_devices(). Throws GlUnavailable if there is none, none is new enough, or none is there.

@@ -20,6 +20,7 @@ namespace {
 
 using scene::Hit;
 using scene::Ray;
+using test::CpuDevice;
 using test::LyingTracer;
 
 constexpr int kSide = 48;
@@ -94,34 +95,21 @@ TEST(GpuVerification, StructuresThatCannotRefitAreOnlyRebuilt) {
 
 TEST(GpuVerification, AForgottenRefitIsSeen) {
   /// A device that keeps its old triangles when told to refit.
-  class Forgetful final : public renderer::Tracer {
+  class Forgetful final : public CpuDevice {
    public:
     void init(const renderer::RenderInput& input) override {
-      input_ = input;
       triangles_ = *input.triangles;
       structure_ = accel::make_structure(accel::default_spec(accel::StructureKind::bvh_median));
       structure_->build(triangles_.triangles);
-      inner_.init({input.scene, &triangles_, structure_.get()});
+      CpuDevice::init({input.scene, &triangles_, structure_.get()});
     }
     void refresh() override {}
     [[nodiscard]] bool can_refit() const override { return true; }
     void refit() override {}
-    void draw(const scene::Camera& c, int w, int h) override { inner_.draw(c, w, h); }
-    void read(renderer::Image& image) override { inner_.read(image); }
-    void trace_hits(const scene::Camera& c, int w, int h, std::vector<Hit>& hits) override {
-      inner_.trace_hits(c, w, h, hits);
-    }
-    void trace_counters(const scene::Camera&, int, int,
-                        std::vector<accel::TraceCounters>&) override {}
-    void trace_rays(std::span<const Ray> rays, std::span<Hit> hits) override {
-      inner_.trace_rays(rays, hits);
-    }
 
    private:
-    renderer::RenderInput input_;
     scene::TriangleList triangles_;
     std::unique_ptr<accel::AccelerationStructure> structure_;
-    renderer::CpuTracer inner_{1};
   } device;
   const auto rows = verify("toys", device);
   ASSERT_EQ(rows.size(), 3U);
@@ -235,26 +223,12 @@ TEST(GpuVerification, TheFirstUnexplainedMismatchIsShownBeforeExplainedOnes) {
 }
 
 TEST(GpuVerification, WhatTheDeviceCannotHoldIsAProblemOfThatRowAlone) {
-  class Small final : public renderer::Tracer {
+  class Small final : public CpuDevice {
    public:
     void init(const renderer::RenderInput& input) override {
       if (input.structure->name() == "kd-sah") throw renderer::gl::GlError("too large: 2 of 1 MiB");
-      inner_.init(input);
+      CpuDevice::init(input);
     }
-    void refresh() override {}
-    void draw(const scene::Camera& c, int w, int h) override { inner_.draw(c, w, h); }
-    void read(renderer::Image& image) override { inner_.read(image); }
-    void trace_hits(const scene::Camera& c, int w, int h, std::vector<Hit>& hits) override {
-      inner_.trace_hits(c, w, h, hits);
-    }
-    void trace_counters(const scene::Camera&, int, int,
-                        std::vector<accel::TraceCounters>&) override {}
-    void trace_rays(std::span<const Ray> rays, std::span<Hit> hits) override {
-      inner_.trace_rays(rays, hits);
-    }
-
-   private:
-    renderer::CpuTracer inner_{1};
   } device;
   const auto rows = verify("mug", device,
                            {accel::default_spec(accel::StructureKind::kd_sah),

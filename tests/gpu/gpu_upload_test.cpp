@@ -133,6 +133,13 @@ TEST_P(GpuUploads, AnEditedSceneSendsMaterialsAndLights) {
   tracer.refresh();
   EXPECT_EQ(tracer.last_transfer().converted_bytes, material_bytes(*setup));
   EXPECT_EQ(tracer.last_transfer().uploaded_bytes, material_bytes(*setup));
+
+  // Without light normals are of no use, so they are not kept up to date; with it they are again.
+  setup->scene.lights.resize(2);
+  setup->scene.mark_changed();
+  tracer.refresh();
+  EXPECT_EQ(tracer.last_transfer().uploaded_bytes,
+            material_bytes(*setup) + std::as_bytes(std::span(setup->list.normals)).size());
 }
 
 TEST_P(GpuUploads, FromNothingToSomethingAndBack) {

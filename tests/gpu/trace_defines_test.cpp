@@ -36,9 +36,9 @@ TEST(TraceDefines, APlainSceneHasNoFeaturesOfShading) {
 }
 
 TEST(TraceDefines, EachFeatureAddsItsOwnOnly) {
-  TraceVariant variant{.kind = StructureKind::grid_box};
+  TraceVariant variant{.kind = StructureKind::grid_box, .lights = true};
   const Defines plain = defines_of(variant);
-  EXPECT_EQ(plain, (Defines{"ENCORE_TRAVERSE_GRID", "ENCORE_OUTPUT_PICTURE"}));
+  EXPECT_EQ(plain, (Defines{"ENCORE_TRAVERSE_GRID", "ENCORE_OUTPUT_PICTURE", "ENCORE_LIGHTS"}));
   const auto expect_more = [&](const TraceVariant& with, const std::string& define) {
     Defines expected = plain;
     expected.insert(define);
@@ -50,9 +50,12 @@ TEST(TraceDefines, EachFeatureAddsItsOwnOnly) {
   expect_more(variant, "ENCORE_COLORS");
   variant.needs = {.specular = true};
   expect_more(variant, "ENCORE_SPECULAR");
-  variant.needs = {};
-  variant.lights = true;
-  expect_more(variant, "ENCORE_LIGHTS");
+}
+
+TEST(TraceDefines, WithoutLightThereIsNothingToShade) {
+  EXPECT_EQ(defines_of({.kind = StructureKind::grid_box,
+                        .needs = {.normals = true, .colors = true, .specular = true}}),
+            (Defines{"ENCORE_TRAVERSE_GRID", "ENCORE_OUTPUT_PICTURE"}));
 }
 
 TEST(TraceDefines, NothingIsShadedWhereNoPictureIsAskedFor) {
