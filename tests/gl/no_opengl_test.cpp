@@ -55,6 +55,9 @@ TEST_F(NoOpenGlTest, WithoutADriverTheListSaysWhy) {
 }
 
 TEST_F(NoOpenGlTest, AnOldOpenGlIsNamedWithTheOneThatIsNeeded) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "under this sanitizer the driver stays loaded, and with it the version it read";
+#endif
   std::string problem;
   const auto devices = list_devices(&problem);
   if (devices.empty() || devices[0].version.find("Mesa") == std::string::npos) {
