@@ -94,9 +94,8 @@ std::shared_ptr<Context> make_headless_context(std::optional<int> device) {
   const auto candidates = egl_candidates();
   const auto count = static_cast<int>(candidates.size());
   if (device && (*device < 0 || *device >= count)) {
-    throw GlUnavailable(
-        fmt::format("there is no OpenGL device {}; 'encore doctor' lists those that there are",
-                    *device));
+    throw GlUnavailable(fmt::format(
+        "there is no OpenGL device {}; 'encore doctor' lists those that there are", *device));
   }
   std::vector<std::string> reasons;
   for (int i = device.value_or(0); i < (device ? *device + 1 : count); ++i) {
