@@ -1,5 +1,6 @@
 #include "app/attach.h"
-#include "app/profile_run.h"
+#include "app/gpu_device.h"
+#include "app/transfer_derivation.h"
 #include "energy/session_csv.h"
 #include "energy/sources/discovery.h"
 #include "scene/diagnostics.h"

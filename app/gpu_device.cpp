@@ -1,8 +1,22 @@
 #include "app/gpu_device.h"
 
+#include "app/session_input.h"
+
 #include <utility>
 
 namespace encore::app {
+
+std::vector<energy::KeyValue> gpu_settings(const std::optional<GpuInfo>& gpu) {
+  if (!gpu) return {};
+  return {{"gl_renderer", gpu->name}, {"gl_version", gpu->version}};
+}
+
+std::optional<GpuInfo> gpu_of(const energy::SessionInfo& info) {
+  GpuInfo gpu{configuration_value(info.settings, "gl_renderer"),
+              configuration_value(info.settings, "gl_version")};
+  if (gpu.name.empty()) return std::nullopt;
+  return gpu;
+}
 
 GpuContext::GpuContext(std::optional<int> device, Maker make)
     : device_(device), make_(std::move(make)) {}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "energy/session.h"
 #include "renderer/gl/context.h"
 
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace encore::app {
 
@@ -18,6 +20,10 @@ struct GpuInfo {
   std::string name;
   std::string version;  ///< of OpenGL, as the driver says it
 };
+
+/// As settings of a session, and back; nothing where no graphics device took part.
+std::vector<energy::KeyValue> gpu_settings(const std::optional<GpuInfo>& gpu);
+std::optional<GpuInfo> gpu_of(const energy::SessionInfo& info);
 
 /// The one OpenGL context of a run: made when something first asks for it, shared from then on. A
 /// run that draws on the CPU alone makes none. Used by one thread.

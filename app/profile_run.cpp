@@ -4,7 +4,6 @@
 #include "app/number_text.h"
 #include "app/profile_folder.h"
 #include "app/profile_report.h"
-#include "app/session_input.h"
 #include "app/transfer_derivation.h"
 #include "energy/machine.h"
 #include "renderer/gl/error.h"
@@ -119,18 +118,6 @@ std::optional<GpuInfo> open_gpu_for(const std::vector<WorkloadSpec>& specs,
   if (std::none_of(specs.begin(), specs.end(), needs_it)) return std::nullopt;
   GpuInfo gpu = tools.open_gpu();
   terminal.info("GPU: " + gpu.name);
-  return gpu;
-}
-
-std::vector<energy::KeyValue> gpu_settings(const std::optional<GpuInfo>& gpu) {
-  if (!gpu) return {};
-  return {{"gl_renderer", gpu->name}, {"gl_version", gpu->version}};
-}
-
-std::optional<GpuInfo> gpu_of(const energy::SessionInfo& info) {
-  GpuInfo gpu{configuration_value(info.settings, "gl_renderer"),
-              configuration_value(info.settings, "gl_version")};
-  if (gpu.name.empty()) return std::nullopt;
   return gpu;
 }
 

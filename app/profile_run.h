@@ -26,9 +26,6 @@ std::vector<std::string> scene_names(const std::vector<WorkloadSpec>& specs);
 /// Throws renderer::gl::GlUnavailable.
 std::optional<GpuInfo> open_gpu_for(const std::vector<WorkloadSpec>& specs,
                                     const WorkloadTools& tools, Terminal& terminal);
-/// As settings of a session, and back.
-std::vector<energy::KeyValue> gpu_settings(const std::optional<GpuInfo>& gpu);
-std::optional<GpuInfo> gpu_of(const energy::SessionInfo& info);
 
 /// Threads that render on the CPU: one number, or "2 (toys), 4 (bunny)" where scenes ask for
 /// different ones; empty if nothing renders there.

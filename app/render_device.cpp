@@ -1,9 +1,8 @@
 #include "app/render_device.h"
 
 #include "app/interrupt.h"
+#include "app/make_renderer.h"
 #include "renderer/cpu_tracer.h"
-#include "renderer/gpu_tracer.h"
-#include "renderer/raster_renderer.h"
 
 #include <chrono>
 
@@ -25,25 +24,12 @@ std::optional<double> milliseconds(const std::optional<double>& seconds) {
 
 RenderDevice::RenderDevice(Device device, const renderer::RenderInput& input, GpuContext& gpu,
                            int threads)
-    : input_(input) {
-  complete_ = [] { return !interrupted; };
-  hits_ = [] { return std::nullopt; };
-  if (device == Device::cpu) {
-    auto tracer = std::make_unique<renderer::CpuTracer>(threads);
-    tracer->set_cancel_flag(&interrupted);
-    complete_ = [used = tracer.get()] { return used->complete(); };
-    hits_ = [used = tracer.get()] { return used->hit_count(); };
-    figures_.threads = tracer->threads();
-    tracer_ = tracer.get();
-    renderer_ = std::move(tracer);
-  } else if (device == Device::gpu) {
-    auto tracer = std::make_unique<renderer::GpuTracer>(gpu.get());
-    tracer->set_cancel_flag(&interrupted);
-    complete_ = [used = tracer.get()] { return used->complete(); };
-    tracer_ = tracer.get();
-    renderer_ = std::move(tracer);
-  } else {
-    renderer_ = std::make_unique<renderer::RasterRenderer>(gpu.get());
+    : input_(input),
+      renderer_(make_renderer(device, threads, gpu)),
+      tracer_(dynamic_cast<renderer::Tracer*>(renderer_.get())) {
+  renderer_->set_cancel_flag(&interrupted);
+  if (const auto* cpu = dynamic_cast<const renderer::CpuTracer*>(renderer_.get())) {
+    figures_.threads = cpu->threads();
   }
   figures_.device = device;
   figures_.device_name = renderer_->device_name();
@@ -66,14 +52,14 @@ bool RenderDevice::run(const std::function<void()>& draw_once) {
   if (figures_.warm_up_ms) {
     const auto start = Clock::now();
     draw_once();
-    if (!complete_()) return false;
+    if (!renderer_->complete()) return false;
     *figures_.warm_up_ms += milliseconds_since(start);
   }
   const auto start = Clock::now();
   draw_once();
   figures_.draw_ms = milliseconds_since(start);
-  figures_.hits = hits_();
-  return complete_();
+  figures_.hits = renderer_->last_hits();
+  return renderer_->complete();
 }
 
 bool RenderDevice::draw(ImageSize size, renderer::Image& image) {
@@ -92,7 +78,7 @@ bool RenderDevice::trace_counters(ImageSize size, std::vector<accel::TraceCounte
 bool RenderDevice::trace_hits(ImageSize size, std::vector<scene::Hit>& hits) {
   if (tracer_ == nullptr) return false;
   tracer_->trace_hits(input_.scene->camera, size.width, size.height, hits);
-  return complete_();
+  return renderer_->complete();
 }
 
 }  // namespace encore::app

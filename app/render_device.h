@@ -55,9 +55,6 @@ class RenderDevice {
   renderer::RenderInput input_;
   std::unique_ptr<renderer::Renderer> renderer_;
   renderer::Tracer* tracer_ = nullptr;  ///< the renderer, if it traces rays
-  /// Whether the last picture is whole, and how many hits it has where that is known.
-  std::function<bool()> complete_;
-  std::function<std::optional<std::uint64_t>()> hits_;
   DrawFigures figures_;
 };
 

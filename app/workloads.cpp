@@ -4,11 +4,10 @@
 #include "accel/make_structure.h"
 #include "accel/test_rays.h"
 #include "accel/verify.h"
+#include "app/make_renderer.h"
 #include "app/workload_frames.h"
 #include "renderer/camera_rays.h"
-#include "renderer/cpu_tracer.h"
-#include "renderer/gpu_tracer.h"
-#include "renderer/raster_renderer.h"
+#include "renderer/trace_defines.h"
 
 #include <fmt/format.h>
 
@@ -112,13 +111,9 @@ std::string_view to_string(TestKind test) {
 }
 
 WorkloadTools standard_tools(const std::shared_ptr<GpuContext>& gpu) {
-  const auto make_renderer = [gpu](Device device,
-                                   int threads) -> std::unique_ptr<renderer::Renderer> {
-    if (device == Device::gpu) return std::make_unique<renderer::GpuTracer>(gpu->get());
-    if (device == Device::raster) return std::make_unique<renderer::RasterRenderer>(gpu->get());
-    return std::make_unique<renderer::CpuTracer>(threads);
-  };
-  return {accel::make_structure, make_renderer, [gpu] { return gpu->info(); }};
+  return {accel::make_structure,
+          [gpu](Device device, int threads) { return make_renderer(device, threads, *gpu); },
+          [gpu] { return gpu->info(); }};
 }
 
 WorkloadTools standard_tools() {
@@ -304,7 +299,7 @@ std::string reason_to_skip(const WorkloadSpec& spec) {
     return fmt::format("device {} has no structure, so test {} has nothing to measure",
                        to_string(spec.device), to_string(spec.test));
   }
-  if (spec.device == Device::gpu && spec.structure.kind == StructureKind::brute) {
+  if (spec.device == Device::gpu && !renderer::has_gpu_traversal(spec.structure.kind)) {
     return "brute force is the truth that others are held to; device gpu has no traversal for it";
   }
   if (builds && spec.policy == Policy::fixed) {

@@ -44,10 +44,10 @@ class CpuTracer final : public Tracer {
                       std::vector<accel::TraceCounters>& counters) override;
   void trace_rays(std::span<const scene::Ray> rays, std::span<scene::Hit> hits) override;
 
-  /// Tiles that have not begun when `*flag` turns true are left as they are; null: never.
-  void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
-  /// Whether the last frame was drawn to its end.
-  [[nodiscard]] bool complete() const { return complete_.load(std::memory_order_relaxed); }
+  /// Tiles that have not begun are left as they are.
+  void set_cancel_flag(const std::atomic<bool>* flag) override { cancel_ = flag; }
+  [[nodiscard]] bool complete() const override { return complete_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::optional<std::uint64_t> last_hits() const override { return hit_count(); }
   /// Rays of the last frame that hit something.
   [[nodiscard]] std::uint64_t hit_count() const { return hits_.load(std::memory_order_relaxed); }
   [[nodiscard]] int threads() const { return threads_; }

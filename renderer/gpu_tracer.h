@@ -62,10 +62,9 @@ class GpuTracer final : public Tracer {
 
   /// The picture as a texture of the context (rgba32f, linear, row 0 at the top); 0 before draw().
   [[nodiscard]] std::uint32_t texture() const { return picture_.texture(); }
-  /// Pieces that have not been sent when `*flag` turns true are not drawn; null: never.
-  void set_cancel_flag(const std::atomic<bool>* flag);
-  /// Whether the last frame was drawn to its end.
-  [[nodiscard]] bool complete() const;
+  /// Pieces that have not been sent are not drawn.
+  void set_cancel_flag(const std::atomic<bool>* flag) override;
+  [[nodiscard]] bool complete() const override;
 
  private:
   /// What is traced at present: the uniforms of its programs that stay from piece to piece.

@@ -94,6 +94,7 @@ void RasterRenderer::draw(const scene::Camera& camera, int width, int height) {
   }
   timer_.end();
   gl::finish(doing);
+  complete_ = !cancelled();
   draw_s_ = timer_.seconds();
   context_->check(doing);
 }
@@ -106,6 +107,10 @@ void RasterRenderer::read(Image& image) {
 
 std::string RasterRenderer::device_name() const {
   return context_->capabilities().device_name();
+}
+
+bool RasterRenderer::cancelled() const {
+  return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed);
 }
 
 void RasterRenderer::check_ready() const {
@@ -155,9 +160,10 @@ void RasterRenderer::draw_triangles() {
   glVertexAttribBinding(kCorner, 0);
   // The buffer is another one after it had to grow.
   glBindVertexBuffer(0, scene_.triangles().id(), 0, kCornerBytes);
-  for (std::uint32_t first = 0; first < scene_.triangle_count(); first += kTrianglesPerDraw) {
+  const std::uint32_t all = scene_.triangle_count();
+  for (std::uint32_t first = 0; first < all && !cancelled(); first += kTrianglesPerDraw) {
     if (first > 0) glFlush();
-    const std::uint32_t count = std::min(kTrianglesPerDraw, scene_.triangle_count() - first);
+    const std::uint32_t count = std::min(kTrianglesPerDraw, all - first);
     glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * first), static_cast<GLsizei>(3 * count));
   }
 }

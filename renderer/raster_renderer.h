@@ -10,6 +10,7 @@
 #include "renderer/renderer.h"
 #include "scene/bounds.h"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -54,6 +55,10 @@ class RasterRenderer final : public Renderer {
   [[nodiscard]] std::optional<double> last_draw_s() const override { return draw_s_; }
   [[nodiscard]] std::string device_name() const override;
 
+  /// Triangles that have not been sent are not drawn.
+  void set_cancel_flag(const std::atomic<bool>* flag) override { cancel_ = flag; }
+  [[nodiscard]] bool complete() const override { return complete_; }
+
   /// The picture as a texture of the context (rgba32f, linear, row 0 at the top); 0 before draw().
   [[nodiscard]] std::uint32_t texture() const { return target_.picture().texture(); }
 
@@ -62,6 +67,7 @@ class RasterRenderer final : public Renderer {
   void prepare();
   void send_camera(const CameraFrame& frame, int width, int height);
   void draw_triangles();
+  [[nodiscard]] bool cancelled() const;
 
   std::shared_ptr<gl::Context> context_;
   GpuScene scene_;
@@ -72,6 +78,8 @@ class RasterRenderer final : public Renderer {
   std::uint32_t vertex_array_ = 0;
   scene::Bounds bounds_;  ///< of the triangles as last sent
   std::uint64_t bounds_version_ = 0;
+  const std::atomic<bool>* cancel_ = nullptr;
+  bool complete_ = true;
   gl::Timer timer_;
   Transfer transfer_;
   std::optional<double> draw_s_;

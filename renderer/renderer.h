@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 #include "scene/triangles.h"
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -51,6 +52,13 @@ class Renderer {
     draw(camera, image.width, image.height);
     read(image);
   }
+
+  /// Parts of a picture that have not begun when `*flag` turns true are left undone; null: never.
+  virtual void set_cancel_flag(const std::atomic<bool>* /*flag*/) {}
+  /// Whether the last picture was drawn to its end.
+  [[nodiscard]] virtual bool complete() const { return true; }
+  /// Rays of the last picture that hit something, where that is counted on the way.
+  [[nodiscard]] virtual std::optional<std::uint64_t> last_hits() const { return std::nullopt; }
 
   /// Whether the renderer works on copies that refresh() has to send.
   [[nodiscard]] virtual bool transfers() const { return false; }

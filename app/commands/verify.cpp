@@ -10,6 +10,7 @@
 #include "renderer/cpu_tracer.h"
 #include "renderer/difference_image.h"
 #include "renderer/gpu_tracer.h"
+#include "renderer/trace_defines.h"
 #include "scene/sample_scenes.h"
 
 #include <fmt/format.h>
@@ -165,7 +166,7 @@ void verify_scene_on_gpu(const scene::Scene& scene, const VerifyOptions& options
                          GpuVerification& run, JsonRows& json, Terminal& terminal) {
   const auto specs = chosen_structures(options, scene);
   for (const accel::StructureSpec& spec : specs) {
-    if (spec.kind == accel::StructureKind::brute) {
+    if (!renderer::has_gpu_traversal(spec.kind)) {
       throw UsageError("brute is for the CPU alone; --device gpu takes the other structures");
     }
   }

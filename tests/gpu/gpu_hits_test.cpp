@@ -47,17 +47,11 @@ TEST_P(GpuHits, AreThoseOfTheCpuAtEveryScale) {
 
 TEST_P(GpuHits, AreThoseOfTheCpuFromTheCamera) {
   GpuTracer tracer(context_);
-  CpuTracer cpu(1);
-  std::vector<scene::Hit> found;
-  std::vector<scene::Hit> expected;
   for (const char* name : {"triangle", "scissors", "toys"}) {
     const auto setup = sample_scene(name, spec_of(GetParam()));
     tracer.init(setup->input());
-    cpu.init(setup->input());
     for (const auto& [width, height] : {std::pair{48, 48}, {37, 53}, {1, 1}, {3, 1}}) {
-      tracer.trace_hits(setup->scene.camera, width, height, found);
-      cpu.trace_hits(setup->scene.camera, width, height, expected);
-      expect_same_hits(found, expected, name);
+      expect_camera_hits(tracer, *setup, width, height, name);
     }
   }
 }
@@ -80,14 +74,8 @@ TEST_P(GpuHits, AreThoseOfTheCpuForAPictureFetchedInParts) {
   // More than 16 MiB of hits; the last part is a short one.
   const auto setup = scene_of(accel::test::soup(1, 20.0F, 3), spec_of(GetParam()));
   GpuTracer tracer(context_);
-  CpuTracer cpu(1);
   tracer.init(setup->input());
-  cpu.init(setup->input());
-  std::vector<scene::Hit> found;
-  std::vector<scene::Hit> expected;
-  tracer.trace_hits(setup->scene.camera, 2047, 521, found);
-  cpu.trace_hits(setup->scene.camera, 2047, 521, expected);
-  expect_same_hits(found, expected, "parts");
+  expect_camera_hits(tracer, *setup, 2047, 521, "parts");
 }
 
 TEST_P(GpuHits, ARayThatMeetsSeventyThousandTrianglesIsFollowedToItsEnd) {
@@ -100,19 +88,15 @@ TEST_P(GpuHits, ARayThatMeetsSeventyThousandTrianglesIsFollowedToItsEnd) {
   setup->scene.camera = {
       .eye = {0.25F, 0.3F, -4.0F}, .target = {0.25F, 0.3F, 0.0F}, .vertical_fov_degrees = 5.0F};
   GpuTracer tracer(context_);
-  CpuTracer cpu(1);
   tracer.init(setup->input());
-  cpu.init(setup->input());
-  std::vector<scene::Hit> found;
-  std::vector<scene::Hit> expected;
-  tracer.trace_hits(setup->scene.camera, 5, 3, found);
-  cpu.trace_hits(setup->scene.camera, 5, 3, expected);
-  expect_same_hits(found, expected, "hits");
+  const std::vector<scene::Hit> found = expect_camera_hits(tracer, *setup, 5, 3, "hits");
   EXPECT_EQ(found[7].triangle, kCount - 1);
 
   std::vector<accel::TraceCounters> costs;
   std::vector<accel::TraceCounters> cpu_costs;
   tracer.trace_counters(setup->scene.camera, 5, 3, costs);
+  CpuTracer cpu(1);
+  cpu.init(setup->input());
   cpu.trace_counters(setup->scene.camera, 5, 3, cpu_costs);
   EXPECT_GE(costs[7].triangle_tests, kCount);
   EXPECT_EQ(costs[7].triangle_tests, cpu_costs[7].triangle_tests);

@@ -104,4 +104,17 @@ inline void expect_structure_hits(GpuTracer& tracer, const accel::AccelerationSt
   expect_same_hits(found, expected, what);
 }
 
+/// Expects a tracer's hits of the scene's camera to be those of the CPU tracer; returns them.
+inline std::vector<scene::Hit> expect_camera_hits(GpuTracer& tracer, const GpuTestScene& setup,
+                                                  int width, int height, const std::string& what) {
+  CpuTracer cpu(1);
+  cpu.init(setup.input());
+  std::vector<scene::Hit> found;
+  std::vector<scene::Hit> expected;
+  tracer.trace_hits(setup.scene.camera, width, height, found);
+  cpu.trace_hits(setup.scene.camera, width, height, expected);
+  expect_same_hits(found, expected, what);
+  return found;
+}
+
 }  // namespace encore::renderer::test

@@ -38,13 +38,7 @@ class GpuUploads : public encore::test::GlTest, public testing::WithParamInterfa
   }
 
   void expect_current_hits(GpuTracer& tracer, const GpuTestScene& setup) {
-    CpuTracer cpu(1);
-    cpu.init(setup.input());
-    std::vector<scene::Hit> found;
-    std::vector<scene::Hit> expected;
-    tracer.trace_hits(setup.scene.camera, 32, 32, found);
-    cpu.trace_hits(setup.scene.camera, 32, 32, expected);
-    expect_same_hits(found, expected, "hits");
+    expect_camera_hits(tracer, setup, 32, 32, "hits");
   }
 
   void expect_clock(const Transfer& transfer) {
