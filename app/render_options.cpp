@@ -123,7 +123,10 @@ void apply_camera(std::string_view text, scene::Camera& camera) {
   camera.eye = {n[0], n[1], n[2]};
   camera.target = {n[3], n[4], n[5]};
   if (n.size() >= 9) camera.up = {n[6], n[7], n[8]};
-  if (n.size() == 10) camera.vertical_fov_degrees = n[9];
+  if (n.size() == 10) {
+    camera.vertical_fov_degrees = n[9];
+    camera.orthographic_height = 0.0F;
+  }
 }
 
 accel::StructureSpec chosen_structure(const RenderOptions& options, const RenderChoice& choice,

@@ -1,30 +1,18 @@
 #include "renderer/camera_rays.h"
 
-#include "scene/portable_math.h"
+#include "scene/camera_basis.h"
 #include "scene/triangle.h"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace encore::renderer {
 
 namespace {
-
-/// `up` at unit length, or an axis in its place if it cannot tell what is up for this view.
-glm::dvec3 usable_up(const glm::dvec3& forward, const glm::dvec3& wanted) {
-  constexpr double kSmallestSine = 1e-6;
-  const double length = std::sqrt(glm::dot(wanted, wanted));
-  if (length > 0.0) {
-    const glm::dvec3 up = wanted / length;
-    const glm::dvec3 side = glm::cross(forward, up);
-    if (std::sqrt(glm::dot(side, side)) > kSmallestSine) return up;
-  }
-  const glm::dvec3 size = glm::abs(forward);
-  if (size.y <= size.x && size.y <= size.z) return {0.0, 1.0, 0.0};
-  return size.z <= size.x ? glm::dvec3{0.0, 0.0, 1.0} : glm::dvec3{1.0, 0.0, 0.0};
-}
 
 void check(const scene::Camera& camera, int width, int height) {
   if (width <= 0 || height <= 0) {
@@ -37,8 +25,48 @@ void check(const scene::Camera& camera, int width, int height) {
   if (camera.eye == camera.target) {
     throw std::invalid_argument("the camera's eye and target are the same point; move one of them");
   }
+  if (!(camera.orthographic_height >= 0.0F && std::isfinite(camera.orthographic_height))) {
+    throw std::invalid_argument(
+        "the camera's orthographic height must be a finite number above 0, or 0 for perspective");
+  }
+  if (camera.orthographic()) return;
   if (!(camera.vertical_fov_degrees > 0.0F && camera.vertical_fov_degrees < 180.0F)) {
     throw std::invalid_argument("the camera's field of view must be inside (0, 180) degrees");
+  }
+}
+
+/// The picture's corners on the plane through the eye, which no ray starts beyond.
+void check_starts(const CameraFrame& frame) {
+  const glm::dvec3 reach = glm::abs(glm::dvec3(frame.origin)) +
+                           frame.center_x * glm::abs(frame.right) +
+                           frame.center_y * glm::abs(frame.up);
+  if (std::max({reach.x, reach.y, reach.z}) > std::numeric_limits<float>::max()) {
+    throw std::invalid_argument("the camera's orthographic height is too large for its eye");
+  }
+}
+
+void perspective_rays(const CameraFrame& frame, const PixelRect& rect, std::span<scene::Ray> rays) {
+  std::size_t i = 0;
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    const glm::dvec3 row = frame.forward + (frame.center_y - (y + 0.5)) * frame.up;
+    for (int x = rect.x0; x < rect.x1; ++x, ++i) {
+      const glm::dvec3 along = row + ((x + 0.5) - frame.center_x) * frame.right;
+      const double scale = 1.0 / std::sqrt(glm::dot(along, along));
+      rays[i] = scene::Ray{.origin = frame.origin, .direction = glm::vec3(along * scale)};
+    }
+  }
+}
+
+void orthographic_rays(const CameraFrame& frame, const PixelRect& rect,
+                       std::span<scene::Ray> rays) {
+  const auto direction = glm::vec3(frame.forward);
+  std::size_t i = 0;
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    const glm::dvec3 row = glm::dvec3(frame.origin) + (frame.center_y - (y + 0.5)) * frame.up;
+    for (int x = rect.x0; x < rect.x1; ++x, ++i) {
+      const glm::dvec3 start = row + ((x + 0.5) - frame.center_x) * frame.right;
+      rays[i] = scene::Ray{.origin = glm::vec3(start), .direction = direction};
+    }
   }
 }
 
@@ -49,36 +77,24 @@ CameraFrame make_camera_frame(const scene::Camera& camera, int width, int height
   CameraFrame frame;
   frame.origin = camera.eye;
 
-  // An orthonormal basis; squares of float coordinates neither overflow nor vanish in double.
-  const glm::dvec3 view = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
-  frame.forward = view / std::sqrt(glm::dot(view, view));
-  const glm::dvec3 side =
-      glm::cross(frame.forward, usable_up(frame.forward, glm::dvec3(camera.up)));
-  const glm::dvec3 right = side / std::sqrt(glm::dot(side, side));
-  const glm::dvec3 up = glm::cross(right, frame.forward);
+  const scene::CameraBasis basis = scene::camera_basis(camera);
+  frame.forward = basis.forward;
+  frame.orthographic = camera.orthographic();
 
   // The image spans 2 tan(fov / 2) in height at distance 1; a pixel is as wide as it is high.
-  const double half_angle = 0.5 * static_cast<double>(camera.vertical_fov_degrees);
-  const double half_height =
-      scene::portable_sin_degrees(half_angle) / scene::portable_cos_degrees(half_angle);
-  const double pixel = 2.0 * half_height / height;
-  frame.right = right * pixel;
-  frame.up = up * pixel;
+  const double pixel = frame.orthographic ? static_cast<double>(camera.orthographic_height) / height
+                                          : 2.0 * scene::half_height_at_one(camera) / height;
+  frame.right = basis.right * pixel;
+  frame.up = basis.up * pixel;
   frame.center_x = 0.5 * width;
   frame.center_y = 0.5 * height;
+  if (frame.orthographic) check_starts(frame);
   return frame;
 }
 
 void camera_rays(const CameraFrame& frame, const PixelRect& rect, std::span<scene::Ray> rays) {
-  std::size_t i = 0;
-  for (int y = rect.y0; y < rect.y1; ++y) {
-    const glm::dvec3 row = frame.forward + (frame.center_y - (y + 0.5)) * frame.up;
-    for (int x = rect.x0; x < rect.x1; ++x, ++i) {
-      const glm::dvec3 along = row + ((x + 0.5) - frame.center_x) * frame.right;
-      const double scale = 1.0 / std::sqrt(glm::dot(along, along));
-      rays[i] = scene::Ray{.origin = frame.origin, .direction = glm::vec3(along * scale)};
-    }
-  }
+  if (frame.orthographic) return orthographic_rays(frame, rect, rays);
+  perspective_rays(frame, rect, rays);
 }
 
 }  // namespace encore::renderer

@@ -43,6 +43,7 @@ gpu::CameraParameters to_gpu(const CameraFrame& frame) {
   camera.center_y = frame.center_y;
   camera.up = frame.up;
   camera.origin = frame.origin;
+  camera.orthographic = frame.orthographic ? 1 : 0;
   return camera;
 }
 

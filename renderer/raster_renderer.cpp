@@ -30,7 +30,18 @@ constexpr GLsizei kCornerBytes = 16;  ///< from one corner of gpu::Triangle to t
 constexpr std::uint32_t kTrianglesPerDraw = 1U << 18U;
 
 /// Where shaders/raster.vert and raster.frag have their uniforms.
-enum Uniform : GLint { eye, scale, clip_x, clip_y, forward, near_plane, right, up, center };
+enum Uniform : GLint {
+  eye,
+  scale,
+  clip_x,
+  clip_y,
+  forward,
+  near_plane,
+  right,
+  up,
+  center,
+  orthographic
+};
 
 void set_uniform(Uniform place, const glm::vec3& value) {
   glUniform3fv(place, 1, glm::value_ptr(value));
@@ -146,8 +157,11 @@ void RasterRenderer::send_camera(const CameraFrame& frame, int width, int height
   set_uniform(clip_y, view.clip_y);
   set_uniform(forward, view.forward);
   glUniform1f(near_plane, view.near_plane);
-  set_uniform(right, glm::vec3(frame.right));
-  set_uniform(up, glm::vec3(frame.up));
+  glUniform1i(orthographic, view.orthographic ? 1 : 0);
+  // Where the rays run, from pixel to pixel; orthographic ones all run along the view.
+  const double turning = view.orthographic ? 0.0 : 1.0;
+  set_uniform(right, glm::vec3(turning * frame.right));
+  set_uniform(up, glm::vec3(turning * frame.up));
   glUniform2f(center, static_cast<float>(frame.center_x), static_cast<float>(frame.center_y));
 }
 

@@ -25,7 +25,9 @@ namespace encore::renderer {
 /// Pictures are the tracers' but for what a rasteriser decides otherwise: a pixel on an edge may go
 /// to the neighbour, because points are rounded to single precision and to the device's subpixel
 /// grid; of triangles at the same depth any may win, not the lower index; what lies closer to the
-/// eye than 2^-64 of the distance to the farthest corner of the scene's bounds is cut off. Colours
+/// eye than 2^-64 of the distance to the farthest corner of the scene's bounds is cut off, and in
+/// orthographic views depths and the plane through the eye are resolved to 2^-23 of that distance.
+/// Colours
 /// come from weights that the device interpolates, a few units of 2^-24 off; on a triangle that
 /// passes the eye within 1e-7 of its size they are coarse.
 ///

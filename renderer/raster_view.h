@@ -14,15 +14,18 @@ namespace encore::renderer {
 /// 1e-18 units cost precision. With d = (point - eye) * scale its clip coordinates are
 /// (dot(clip_x, d), dot(clip_y, d), near_plane, dot(forward, d)): an infinite far plane and depths
 /// of near / distance in (0, 1], greater is nearer, which single precision resolves equally well at
-/// every distance (Lapidous and Jiao 1999). Clip y counts downwards, so that row 0 of the picture
-/// is row 0 of the texture.
+/// every distance (Lapidous and Jiao 1999). Orthographic clip coordinates are
+/// (dot(clip_x, d), dot(clip_y, d), 1 - dot(forward, d) / 2, 1): depths fall evenly from 1 at the
+/// plane through the eye, in steps of 2^-24, and no corner lies as far as 0. Clip y counts
+/// downwards, so that row 0 of the picture is row 0 of the texture.
 struct RasterView {
   glm::vec3 eye{0.0F};
   float scale = 1.0F;
   glm::vec3 clip_x{0.0F};
   glm::vec3 clip_y{0.0F};
   glm::vec3 forward{0.0F, 0.0F, -1.0F};
-  float near_plane = 1.0F;  ///< distance of the near plane after scaling
+  float near_plane = 1.0F;  ///< perspective: distance of the near plane after scaling
+  bool orthographic = false;
 };
 
 /// The view through `frame`, made for width x height pixels, of a scene with these bounds (which

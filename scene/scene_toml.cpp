@@ -1,6 +1,7 @@
 #include "scene/assets.h"
-#include "scene/rotation.h"
+#include "scene/load_watch.h"
 #include "scene/scene_file.h"
+#include "scene/scene_toml_camera.h"
 #include "scene/scene_toml_model.h"
 #include "scene/toml_reading.h"
 
@@ -10,26 +11,6 @@
 
 namespace encore::scene {
 namespace {
-
-Camera read_camera(TomlTable& table, Warnings& warnings) {
-  Camera camera;
-  camera.eye = table.vector("eye").value_or(camera.eye);
-  camera.target = table.vector("target").value_or(camera.target);
-  camera.up = table.vector("up").value_or(camera.up);
-  camera.vertical_fov_degrees =
-      table.number("fov", NumberRange{0.0, 180.0, true}).value_or(camera.vertical_fov_degrees);
-  table.warn_about_unknown_keys(warnings);
-  const glm::dvec3 view = unit_or_zero(camera.target - camera.eye);
-  const glm::dvec3 up = unit_or_zero(camera.up);
-  if (view == glm::dvec3(0.0)) {
-    table.fail("target", "'eye' and 'target' of the camera must differ");
-  }
-  const double along = view.x * up.x + view.y * up.y + view.z * up.z;
-  if (up == glm::dvec3(0.0) || along * along > 1.0 - 1e-12) {
-    table.fail("up", "'up' of the camera must not be zero or along its view");
-  }
-  return camera;
-}
 
 /// One value of [settings] as text; whoever uses it checks what it means.
 std::string preference_value(const toml::node& node, const TomlTable& table) {
@@ -106,8 +87,13 @@ Scene parse_scene_toml(std::string_view text, const std::string& file_name,
 
   // Models last: what is wrong with the rest of the file is found before anything large is read.
   const NamedMaterials materials = read_materials(root, scene.warnings);
-  for (TomlTable& model : root.tables("model")) {
-    read_model_table(model, materials, assets, scene);
+  std::vector<TomlTable> models = root.tables("model");
+  const auto count = static_cast<double>(models.size());
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const auto at = static_cast<double>(i);
+    const LoadPart part(at / count, (at + 1.0) / count);
+    check_load();
+    read_model_table(models[i], materials, assets, scene);
   }
   root.warn_about_unknown_keys(scene.warnings);
   return scene;

@@ -1,5 +1,6 @@
 #include "scene/scene_toml_model.h"
 
+#include "scene/load_watch.h"
 #include "scene/motion.h"
 #include "scene/placement.h"
 #include "scene/text_suggestion.h"
@@ -88,8 +89,10 @@ FrameSequence read_frames(TomlTable& table, Assets& assets, Warnings& warnings) 
   if (files->size() > kMaxFrames) {
     table.fail("files", fmt::format("{} frames; the limit is {}", files->size(), kMaxFrames));
   }
-  for (const std::string& file : *files) {
-    sequence.frames.push_back(assets.model(file, place, warnings));
+  const std::size_t count = files->size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const FramePart part(i, count);
+    sequence.frames.push_back(assets.model((*files)[i], place, warnings));
   }
   table.warn_about_unknown_keys(warnings);
   return sequence;

@@ -10,6 +10,11 @@ layout(std140, binding = ENCORE_BINDING_CAMERA) uniform CameraBlock {
 Ray camera_ray(ivec2 pixel) {
   precise double down = camera.center_y - (double(pixel.y) + 0.5lf);
   precise double aside = (double(pixel.x) + 0.5lf) - camera.center_x;
+  if (camera.orthographic != 0u) {
+    precise dvec3 start_row = dvec3(camera.origin) + down * camera.up;
+    precise dvec3 start = start_row + aside * camera.right;
+    return Ray(vec3(start), 0.0, vec3(camera.forward), kInfinity);
+  }
   precise dvec3 row = camera.forward + down * camera.up;
   precise dvec3 along = row + aside * camera.right;
   precise double squared = along.x * along.x + along.y * along.y + along.z * along.z;

@@ -15,7 +15,8 @@ layout(location = 0) out vec4 color;
 
 void main() {
   // The ray through this pixel's centre (renderer/camera_rays.h), in single precision: only shading
-  // depends on it here. gl_FragCoord counts rows from the picture's top.
+  // depends on it here. Orthographic views come with a `right` and `up` of zero. gl_FragCoord
+  // counts rows from the picture's top.
   vec3 along = forward + (gl_FragCoord.x - center.x) * right + (center.y - gl_FragCoord.y) * up;
   vec3 direction = safe_normalize(along);
   // Interpolation strays where a triangle almost touches the eye. Shading does not ask how far away

@@ -8,6 +8,7 @@ layout(location = 2) uniform vec3 clip_x;
 layout(location = 3) uniform vec3 clip_y;
 layout(location = 4) uniform vec3 forward;
 layout(location = 5) uniform float near_plane;
+layout(location = 9) uniform bool orthographic;
 
 // The weights of the second and third corner, which perspective interpolation turns into the
 // barycentrics u and v of a hit.
@@ -16,7 +17,9 @@ flat out uint triangle_index;
 
 void main() {
   vec3 d = (corner - eye) * scale;
-  gl_Position = vec4(dot(clip_x, d), dot(clip_y, d), near_plane, dot(forward, d));
+  float away = dot(forward, d);
+  gl_Position = orthographic ? vec4(dot(clip_x, d), dot(clip_y, d), 1.0 - 0.5 * away, 1.0)
+                             : vec4(dot(clip_x, d), dot(clip_y, d), near_plane, away);
   // Counts from the start of the buffer, also where a frame is drawn in pieces.
   triangle_index = uint(gl_VertexID) / 3u;
   uint place = uint(gl_VertexID) - 3u * triangle_index;

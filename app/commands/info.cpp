@@ -87,8 +87,11 @@ void print_text(const scene::Scene& scene, const scene::SceneInfo& info) {
   print_line("memory", fmt::format("{} meshes, {} triangle list", bytes_text(info.mesh_bytes),
                                    bytes_text(info.triangle_list_bytes)));
   print_line("camera",
-             fmt::format("eye {} target {} fov {:g}", vec3_text(scene.camera.eye),
-                         vec3_text(scene.camera.target), scene.camera.vertical_fov_degrees));
+             fmt::format("eye {} target {} {} {:g}", vec3_text(scene.camera.eye),
+                         vec3_text(scene.camera.target),
+                         scene.camera.orthographic() ? "orthographic height" : "fov",
+                         scene.camera.orthographic() ? scene.camera.orthographic_height
+                                                     : scene.camera.vertical_fov_degrees));
   print_line("lights", fmt::format("{}", info.lights));
   print_line("materials", fmt::format("{}", info.materials));
   for (const scene::Material& material : scene.materials) {

@@ -70,7 +70,8 @@ struct CameraParameters {
   dvec3 right;
   double center_y;
   dvec3 up;
-  double reserved0;
+  uint orthographic;  // 1: rays start at their pixels and run along `forward`; else 0
+  uint reserved0;
   vec3 origin;
   uint material_count;  // entries of the materials' buffer, the one for those that do not exist too
   vec3 background;

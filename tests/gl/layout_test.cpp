@@ -149,8 +149,9 @@ TEST_F(LayoutTest, CameraParametersInAUniformBlock) {
   expect_same_layout("CameraParameters", sizeof(gpu::CameraParameters),
                      {MEMBER(CameraParameters, forward), MEMBER(CameraParameters, center_x),
                       MEMBER(CameraParameters, right), MEMBER(CameraParameters, center_y),
-                      MEMBER(CameraParameters, up), MEMBER(CameraParameters, reserved0),
-                      MEMBER(CameraParameters, origin), MEMBER(CameraParameters, material_count),
+                      MEMBER(CameraParameters, up), MEMBER(CameraParameters, orthographic),
+                      MEMBER(CameraParameters, reserved0), MEMBER(CameraParameters, origin),
+                      MEMBER(CameraParameters, material_count),
                       MEMBER(CameraParameters, background), MEMBER(CameraParameters, light_count)},
                      true);
 }

@@ -3,6 +3,9 @@
 #include "tests/bvh/test_scenes.h"
 #include "tests/gpu/gpu_scenes.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -53,6 +56,43 @@ TEST_P(GpuHits, AreThoseOfTheCpuFromTheCamera) {
     for (const auto& [width, height] : {std::pair{48, 48}, {37, 53}, {1, 1}, {3, 1}}) {
       expect_camera_hits(tracer, *setup, width, height, name);
     }
+  }
+}
+
+TEST_P(GpuHits, AreThoseOfTheCpuInOrthographicViews) {
+  GpuTracer tracer(context_);
+  for (const char* name : {"triangle", "scissors", "toys"}) {
+    const auto setup = sample_scene(name, spec_of(GetParam()));
+    tracer.init(setup->input());
+    const scene::Bounds box = setup->list.bounds();
+    const float size = glm::length(box.size());
+    // From outside along an axis, from outside askew, and from the middle, which cuts the scene.
+    for (const glm::vec3 offset :
+         {glm::vec3(0, 0, 2), glm::vec3(0.7F, 0.9F, -1.3F), glm::vec3(0)}) {
+      setup->scene.camera.eye = box.center() + offset * size;
+      setup->scene.camera.target =
+          box.center() + offset * size * 0.3F - glm::vec3(0, 0, 0.1F) * size;
+      setup->scene.camera.orthographic_height = 0.6F * size;
+      const auto hits = expect_camera_hits(tracer, *setup, 37, 53, name);
+      EXPECT_TRUE(std::any_of(hits.begin(), hits.end(), [](const auto& h) { return h.found(); }));
+    }
+    // Back to perspective with the same tracer.
+    setup->scene.camera.orthographic_height = 0.0F;
+    expect_camera_hits(tracer, *setup, 16, 16, name);
+  }
+}
+
+TEST_P(GpuHits, AreThoseOfTheCpuInOrthographicViewsAtEveryScale) {
+  GpuTracer tracer(context_);
+  const auto base = accel::test::soup(200, 2.0F, 53);
+  for (int exponent = -60; exponent <= 60; exponent += 30) {
+    const float scale = std::ldexp(1.0F, exponent);
+    const auto setup = scene_of(encore::test::scaled(base, scale), spec_of(GetParam()));
+    tracer.init(setup->input());
+    setup->scene.camera = {.eye = glm::vec3(9.0F, 4.0F, 7.0F) * scale,
+                           .target = glm::vec3(0.5F) * scale,
+                           .orthographic_height = 5.0F * scale};
+    expect_camera_hits(tracer, *setup, 31, 29, "scale 2^" + std::to_string(exponent));
   }
 }
 

@@ -53,6 +53,18 @@ TEST_P(GpuPictures, AreThoseOfTheCpu) {
   }
 }
 
+TEST_P(GpuPictures, OrthographicOnesAreThoseOfTheCpu) {
+  GpuTracer tracer(context_);
+  CpuTracer cpu(1);
+  const auto setup = sample_scene("toys", spec_of(GetParam()));
+  setup->scene.camera.orthographic_height = 30.0F;
+  tracer.init(setup->input());
+  cpu.init(setup->input());
+  const Image image = picture_of(tracer, setup->scene.camera, 37, 53);
+  EXPECT_TRUE(has_more_than_one_color(image));
+  expect_close(image, picture_of(cpu, setup->scene.camera, 37, 53), "toys");
+}
+
 TEST_P(GpuPictures, CountersAreOfTheSameWork) {
   const auto setup = sample_scene("toys", spec_of(GetParam()));
   GpuTracer tracer(context_);

@@ -5,8 +5,10 @@
 #include "tests/raster/raster_scenes.h"
 #include "tests/support/gl_context.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -71,6 +73,25 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RasterSamples,
                            return name;
                          });
 
+TEST_P(RasterSamples, LookAsTheyAreTracedInOrthographicViews) {
+  const auto scene = scene::make_sample_scene(GetParam());
+  ASSERT_TRUE(scene.has_value());
+  scene::TriangleList list;
+  scene::update_triangles(*scene, 0.0, list);
+  scene::Camera camera = scene->camera;
+  camera.orthographic_height = glm::length(list.bounds().size());
+  Difference found = difference(*scene, list, camera, 64, 64);
+  EXPECT_LT(found.share, 0.01);
+  EXPECT_LT(found.rmse, 0.02);
+  // Askew, and with the plane through the eye in the middle of the scene.
+  camera.eye = list.bounds().center();
+  camera.target = camera.eye + glm::vec3(0.3F, -0.4F, -1.0F);
+  camera.orthographic_height *= 0.5F;
+  found = difference(*scene, list, camera, 75, 40);
+  EXPECT_LT(found.share, 0.02);
+  EXPECT_LT(found.rmse, 0.04);
+}
+
 TEST_F(RasterPicture, ATriangleBeyondThePictureIsEqualEverywhere) {
   TestScene setup;
   setup.scene.camera = {.eye = {0.3F, -0.2F, 2.0F}};
@@ -129,6 +150,33 @@ TEST_F(RasterPicture, ScenesOfAnySizeLookTheSame) {
     const auto found = renderer::compare_images(picture(*scaled), image, 1e-4);
     EXPECT_EQ(found.differing, 0U) << "2^" << exponent << ": " << found.largest;
   }
+}
+
+TEST_F(RasterPicture, OrthographicScenesOfAnySizeLookTheSame) {
+  const auto setup = renderer::test::sphere_before_square();
+  setup->scene.camera.orthographic_height = 3.0F;
+  const Image image = picture(*setup);
+  EXPECT_LT(difference(setup->scene, setup->list, setup->scene.camera, 48, 48).share, 0.02);
+  for (const int exponent : {-58, -40, 40, 58}) {
+    const auto scaled = renderer::test::sphere_before_square();
+    renderer::test::scale_scene(*scaled, exponent);
+    scaled->scene.camera.orthographic_height = std::ldexp(3.0F, exponent);
+    const auto found = renderer::compare_images(picture(*scaled), image, 1e-4);
+    EXPECT_EQ(found.differing, 0U) << "2^" << exponent << ": " << found.largest;
+  }
+}
+
+TEST_F(RasterPicture, WhatLiesBehindTheEyeIsNotSeenInOrthographicViews) {
+  TestScene setup;
+  setup.scene.materials.resize(1);
+  setup.scene.materials[0].emission = {1.0F, 0.0F, 0.0F};
+  setup.scene.materials[0].ambient = glm::vec3(0.0F);
+  setup.scene.background = {0.0F, 0.0F, 1.0F};
+  renderer::test::add_square(setup.list, 3.0F, 1.0F);
+  setup.scene.camera = {.eye = {0, 0, 1.01F}, .target = {0, 0, 0}, .orthographic_height = 2.0F};
+  for (const glm::vec3& pixel : picture(setup).pixels) ASSERT_EQ(pixel, glm::vec3(1, 0, 0));
+  setup.scene.camera.eye.z = 0.99F;
+  for (const glm::vec3& pixel : picture(setup).pixels) ASSERT_EQ(pixel, glm::vec3(0, 0, 1));
 }
 
 TEST_F(RasterPicture, OddSizesAndWideViewsHaveTheTracersPixels) {

@@ -21,6 +21,11 @@ struct Projected {
 /// What shaders/raster.vert and the device make of a point.
 Projected project(const RasterView& view, const glm::vec3& point, int width, int height) {
   const glm::vec3 d = (point - view.eye) * view.scale;
+  if (view.orthographic) {
+    return {(double{glm::dot(view.clip_x, d)} + 1.0) * 0.5 * width,
+            (double{glm::dot(view.clip_y, d)} + 1.0) * 0.5 * height,
+            1.0 - 0.5 * double{glm::dot(view.forward, d)}};
+  }
   const double w = glm::dot(view.forward, d);
   return {(glm::dot(view.clip_x, d) / w + 1.0) * 0.5 * width,
           (glm::dot(view.clip_y, d) / w + 1.0) * 0.5 * height, double{view.near_plane} / w};
@@ -50,6 +55,47 @@ TEST(RasterView, APointOnAPixelsRayFallsOnItsCentre) {
       // A coordinate of 10 is off by up to 5e-7, which is 1e-3 pixels at one degree.
       EXPECT_NEAR(found.column, x + 0.5, 0.01) << fov;
       EXPECT_NEAR(found.row, y + 0.5, 0.01) << fov;
+    }
+  }
+}
+
+TEST(RasterView, AnOrthographicPixelsPointsFallOnItsCentreAtEveryDistance) {
+  for (const float height : {0.5F, 9.0F, 300.0F}) {
+    scene::Camera camera = kCamera;
+    camera.orthographic_height = height;
+    const CameraFrame frame = renderer::make_camera_frame(camera, kWidth, kHeight);
+    const scene::Bounds bounds{glm::vec3(-20.0F), glm::vec3(20.0F)};
+    const RasterView view = renderer::make_raster_view(frame, kWidth, kHeight, bounds);
+    for (const auto& [x, y] :
+         std::array<std::array<int, 2>, 4>{{{0, 0}, {159, 0}, {31, 80}, {80, 45}}}) {
+      double last = 1.0;
+      for (const double distance : {0.1, 3.0, 12.0}) {
+        const glm::dvec3 point = glm::dvec3(frame.origin) + distance * frame.forward +
+                                 (x + 0.5 - frame.center_x) * frame.right +
+                                 (frame.center_y - y - 0.5) * frame.up;
+        const Projected found = project(view, glm::vec3(point), kWidth, kHeight);
+        EXPECT_NEAR(found.column, x + 0.5, 0.01) << height;
+        EXPECT_NEAR(found.row, y + 0.5, 0.01) << height;
+        EXPECT_LT(found.depth, last);
+        EXPECT_GT(found.depth, 0.0);
+        last = found.depth;
+      }
+    }
+    // Depths above 1 are cut off: what lies behind the eye.
+    const auto behind = glm::vec3(glm::dvec3(frame.origin) - 0.01 * frame.forward);
+    EXPECT_GT(project(view, behind, kWidth, kHeight).depth, 1.0);
+  }
+}
+
+TEST(RasterView, OrthographicExtremesStayFinite) {
+  for (const float height : {1e-45F, 1e-20F, 1e20F, 1e37F}) {
+    for (const float size : {1e-45F, 1e-20F, 1e20F, 1e37F}) {
+      const scene::Camera camera{.eye = {0, 0, size}, .target = {}, .orthographic_height = height};
+      const CameraFrame frame = renderer::make_camera_frame(camera, kWidth, kHeight);
+      const RasterView view =
+          renderer::make_raster_view(frame, kWidth, kHeight, {glm::vec3(0.0F), glm::vec3(size)});
+      const Projected found = project(view, glm::vec3(0.0F), kWidth, kHeight);
+      EXPECT_TRUE(std::isfinite(found.column + found.row + found.depth)) << height << ", " << size;
     }
   }
 }

@@ -101,6 +101,62 @@ TEST(CameraRays, ScaleDoesNotChangeDirections) {
   }
 }
 
+TEST(CameraRays, OrthographicRaysStartAtTheirPixelsAndRunAlongTheView) {
+  // 4 units high: pixels of 2 units.
+  const auto rays =
+      all_rays({.eye = {1, 2, 25}, .target = {1, 2, 3}, .orthographic_height = 4}, 3, 2);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_EQ(rays[i].direction, glm::vec3(0.0F, 0.0F, -1.0F));
+    EXPECT_EQ(rays[i].t_min, 0.0F);
+    EXPECT_EQ(rays[i].t_max, std::numeric_limits<float>::infinity());
+  }
+  EXPECT_EQ(rays[0].origin, glm::vec3(-1.0F, 3.0F, 25.0F));
+  EXPECT_EQ(rays[2].origin, glm::vec3(3.0F, 3.0F, 25.0F));
+  EXPECT_EQ(rays[4].origin, glm::vec3(1.0F, 1.0F, 25.0F));
+}
+
+TEST(CameraRays, OrthographicStartsLieOnThePlaneThroughTheEye) {
+  const scene::Camera camera{.eye = {3, -2, 7}, .target = {-1, 0.5F, 0}, .orthographic_height = 9};
+  const auto frame = make_camera_frame(camera, 37, 19);
+  for (const scene::Ray& ray : all_rays(camera, 37, 19)) {
+    EXPECT_EQ(ray.direction, glm::vec3(frame.forward));
+    const glm::dvec3 from_eye = glm::dvec3(ray.origin) - glm::dvec3(camera.eye);
+    EXPECT_NEAR(glm::dot(from_eye, frame.forward), 0.0, 2e-6);
+    EXPECT_LE(std::abs(glm::dot(from_eye, glm::normalize(frame.up))), 4.5);
+    EXPECT_LE(std::abs(glm::dot(from_eye, glm::normalize(frame.right))), 4.5 * 37 / 19);
+  }
+}
+
+TEST(CameraRays, AnOrthographicRayDependsOnItsPixelAlone) {
+  const scene::Camera camera{.eye = {3, -2, 7}, .orthographic_height = 9};
+  const auto whole = all_rays(camera, 40, 30);
+  const PixelRect rect{7, 11, 23, 29};
+  std::vector<scene::Ray> part(rect.count());
+  camera_rays(make_camera_frame(camera, 40, 30), rect, part);
+  std::size_t i = 0;
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (int x = rect.x0; x < rect.x1; ++x, ++i) {
+      EXPECT_EQ(part[i].origin, whole[static_cast<std::size_t>(y * 40 + x)].origin);
+    }
+  }
+}
+
+TEST(CameraRays, OrthographicHeightsAreFiniteAndThenTheFieldOfViewDoesNotMatter) {
+  const float inf = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float height : {-1.0F, inf, -inf, nan, 3e38F}) {
+    // A height of 3e38 spans more than floats hold in a picture twice as wide, around such an eye.
+    EXPECT_THROW(make_camera_frame({.eye = {0, 0, 3e38F}, .orthographic_height = height}, 64, 16),
+                 std::invalid_argument)
+        << height;
+  }
+  for (const float height : {1e-45F, 1e-15F, 1.0F, 1e30F}) {
+    const auto rays =
+        all_rays({.vertical_fov_degrees = 500.0F, .orthographic_height = height}, 5, 5);
+    for (const scene::Ray& ray : rays) EXPECT_TRUE(std::isfinite(ray.origin.x + ray.origin.y));
+  }
+}
+
 TEST(CameraRays, UnusableCamerasAndSizesAreRejected) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();

@@ -129,6 +129,16 @@ INSTANTIATE_TEST_SUITE_P(
              "scene.toml:2:7: 'fov' must be greater than 0 and less than 180, not 0"},
         Case{"[camera]\nfov = nan\n",
              "scene.toml:2:7: 'fov' must be a finite number of at most 1e37, not nan"},
+        Case{"[camera]\northographic_height = 0\n",
+             "scene.toml:2:23: 'orthographic_height' must be at least 1e-37, not 0"},
+        Case{"[camera]\northographic_height = -3\n",
+             "scene.toml:2:23: 'orthographic_height' must be at least 1e-37, not -3"},
+        Case{"[camera]\northographic_height = inf\n",
+             "scene.toml:2:23: 'orthographic_height' must be a finite number of at most 1e37, not "
+             "inf"},
+        Case{"[camera]\nfov = 60\northographic_height = 5\n",
+             "scene.toml:3:23: a camera has either 'fov' (perspective) or 'orthographic_height'; "
+             "remove one"},
         Case{"[camera]\neye = [0, inf, 0]\n",
              "scene.toml:2:11: 'eye' must be a finite number of at most 1e37, not inf"},
         Case{"[camera]\neye = [0, 1e300, 0]\n",

@@ -49,6 +49,16 @@ color = 0.25
   EXPECT_TRUE(scene.warnings.messages.empty()) << joined(scene.warnings);
 }
 
+TEST(SceneToml, AnOrthographicHeightTakesThePlaceOfTheFieldOfView) {
+  EXPECT_FALSE(parse("[camera]\nfov = 45\n").camera.orthographic());
+  const Scene scene = parse("[camera]\neye = [1, 2, 3]\northographic_height = 12.5\n");
+  EXPECT_TRUE(scene.camera.orthographic());
+  EXPECT_EQ(scene.camera.orthographic_height, 12.5F);
+  EXPECT_EQ(scene.camera.eye, glm::vec3(1.0F, 2.0F, 3.0F));
+  EXPECT_TRUE(scene.warnings.messages.empty()) << joined(scene.warnings);
+  EXPECT_GT(parse("[camera]\northographic_height = 1e-37\n").camera.orthographic_height, 0.0F);
+}
+
 TEST(SceneToml, ReadsEveryKeyOfAMaterialByNameAndInPlace) {
   const std::string keys = R"(diffuse = [0.1, 0.2, 0.3]
 specular = 0.4
