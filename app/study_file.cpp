@@ -3,6 +3,7 @@
 #include "app/device.h"
 #include "app/exit_code.h"
 #include "energy/battery_life/battery_toml.h"
+#include "scene/shipped_files.h"
 #include "scene/text_suggestion.h"
 #include "scene/toml_reading.h"
 
@@ -15,6 +16,7 @@
 #include <iterator>
 #include <limits>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 namespace encore::app {
@@ -189,7 +191,8 @@ StudyGroup read_group(TomlTable& table) {
   group.scenes = words(table, "scenes", anything);
   if (group.scenes.empty()) table.fail("scenes", "a group needs scenes");
   group.structures = words(table, "structures", structure_names(), {"all"});
-  group.policies = words(table, "policies", one_of("policy", {"rebuild", "refit", "static"}));
+  group.policies =
+      words(table, "policies", one_of("policy", {"rebuild", "refit", "auto", "static"}));
   group.tests = words(table, "tests", one_of("test", {"build", "static", "dynamic", "forced"}));
   group.sizes = words(table, "sizes", size_problem, {"256"});
   group.memory = words(table, "memory", one_of("memory mode", {"pool", "malloc"}), {"pool"});
@@ -231,6 +234,22 @@ Study parse_study(std::string_view text, const std::string& file) {
   }
   refuse_unknown_keys(root);
   return study;
+}
+
+std::filesystem::path find_study(const std::string& name_or_path) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(name_or_path, error)) return name_or_path;
+  std::filesystem::path shipped = scene::shipped_file("studies", name_or_path);
+  if (!shipped.empty()) return shipped;
+  const std::vector<std::string> names = scene::shipped_names("studies");
+  if (names.empty()) {
+    throw InputError(fmt::format("cannot read the study {}: there is no such file; {}",
+                                 name_or_path, scene::shipped_files_missing()));
+  }
+  const std::vector<std::string_view> candidates(names.begin(), names.end());
+  throw InputError(fmt::format(
+      "cannot read the study {}: there is no such file{} (the studies that ship: {})", name_or_path,
+      scene::did_you_mean(name_or_path, candidates), fmt::join(names, ", ")));
 }
 
 Study read_study(const std::filesystem::path& file) {

@@ -37,6 +37,10 @@ struct Study {
   std::vector<StudyGroup> groups;
 };
 
+/// The file itself, or else the study of that name that ships with the program (assets/studies).
+/// Throws scene::InputError that lists those.
+std::filesystem::path find_study(const std::string& name_or_path);
+
 /// Reads a study (docs/studies.md tells the keys). Every word is checked. Throws scene::InputError
 /// "file:line:column: ..."; unknown keys are errors, too, since a study may run for days.
 Study read_study(const std::filesystem::path& file);

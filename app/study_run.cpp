@@ -194,7 +194,7 @@ std::vector<TransferFigures> write_all_transfers(const ProfileReport& report, bo
 
 StudyResult run_study(const StudyOptions& options, const WorkloadTools& tools,
                       const std::atomic<bool>& stop, const PausePoint& pause, Terminal& terminal) {
-  Study study = read_study(options.file);
+  Study study = read_study(find_study(options.file));
   merge(study.measuring, options.measuring);
   std::optional<StudyProgress> progress;
   if (!options.resume.empty()) progress = read_progress(options.resume, study.digest);

@@ -2,6 +2,7 @@
 
 #include "scene/assets.h"
 #include "scene/basic_shapes.h"
+#include "scene/load_watch.h"
 #include "scene/placement.h"
 #include "scene/rotation.h"
 #include "scene/text_suggestion.h"
@@ -261,6 +262,7 @@ void ClassicScene::dynamic(const Line& line) {
   FrameSequence sequence;
   sequence.frames_per_second = kFramesPerSecond;
   for (std::size_t i = 0; i < files.size(); i += static_cast<std::size_t>(n[0])) {
+    const FramePart part(i, files.size());
     sequence.frames.push_back(assets_.model(files[i], line.place, scene_.warnings));
   }
   Transform t = pose(n, 1, 5);
@@ -300,8 +302,16 @@ Scene ClassicScene::parse(std::string_view text) {
   // A byte order mark is no part of the first command.
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   std::size_t number = 0;
+  // Models are spread over the file, so its bytes stand for the work.
+  const auto size = static_cast<double>(text.size());
+  const auto begin_of = [size](std::string_view rest) {
+    return 1.0 - static_cast<double>(rest.size()) / size;
+  };
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
+    const std::size_t next = end == std::string_view::npos ? text.size() : end + 1;
+    const LoadPart part(begin_of(text), begin_of(text.substr(next)));
+    if (number % 1024 == 0) check_load();
     const Line line = split(text.substr(0, end), fmt::format("{}:{}", scene_.source, ++number));
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
     if (!line.words.empty()) command(line);

@@ -1,6 +1,7 @@
 #include "scene/mesh_reader.h"
 
 #include "scene/assimp_reader.h"
+#include "scene/load_watch.h"
 #include "scene/model_child_process.h"
 #include "scene/model_input.h"
 #include "scene/model_sniff.h"
@@ -64,10 +65,13 @@ Model import_guarded(const std::function<PackedModel()>& import, std::uint64_t b
                      const std::string& name) {
   using Outcome = ChildResult::Outcome;
   PackedModel packed;
+  report_load(0.0);
   try {
     const ChildResult result =
         run_in_child([&import] { return pack_model(import()); }, limits_for(bytes));
+    if (result.outcome == Outcome::cancelled) throw LoadCancelled();
     if (result.outcome != Outcome::finished) fail(name, result.outcome);
+    report_load(0.8);
     if (!unpack_model(result.bytes, packed)) fail(name, Outcome::crashed);
   } catch (const std::bad_alloc&) {
     throw InputError(name + ": the model does not fit into memory; use a smaller one");
@@ -78,6 +82,7 @@ Model import_guarded(const std::function<PackedModel()>& import, std::uint64_t b
                      "); the file is damaged or of another format");
   }
 
+  report_load(0.9);
   // What a crashing library could have left in a damaged state is checked like a file.
   const auto& positions = packed.model.mesh.positions;
   for (const glm::uvec3& t : packed.model.mesh.triangles) {
@@ -117,7 +122,9 @@ void reject_unknown(std::string_view bytes, const std::string& extension, const 
 
 Model read_model(const std::filesystem::path& path) {
   const std::string name = path.string();
-  std::string bytes = read_model_file(path);
+  note_load(path.filename().string());
+  std::string bytes = in_load_part(0.0, 0.1, [&path] { return read_model_file(path); });
+  const LoadPart part(0.1, 1.0);
   const std::string by_name = lower_extension(path);
   const std::string by_content = sniff_extension(bytes);
   const std::string extension = pick_extension(by_name, by_content);

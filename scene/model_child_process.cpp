@@ -1,5 +1,7 @@
 #include "scene/model_child_process.h"
 
+#include "scene/load_watch.h"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
@@ -101,6 +103,7 @@ void prepare_child(const ChildLimits& limits, std::uint64_t mapped) {
 
 [[noreturn]] void run_child(const std::function<std::string()>& work, int file) {
   Mark mark = Mark::nothing;
+  LoadScope::leave_all();
   try {
     const std::string bytes = work();
     mark = Mark::finished;
@@ -115,18 +118,32 @@ void prepare_child(const ChildLimits& limits, std::uint64_t mapped) {
   _exit(0);
 }
 
-// Waits until the child has ended or `deadline` has passed; returns whether it ended.
-bool wait_until(pid_t child, Clock::time_point deadline, int& status) {
+enum class Waited { ended, too_long, cancelled };
+
+bool load_cancelled() {
+  try {
+    check_load();
+  } catch (const LoadCancelled&) {
+    return true;
+  }
+  return false;
+}
+
+// Waits until the child has ended, `deadline` has passed or the loading is to end.
+Waited wait_until(pid_t child, Clock::time_point deadline, int& status) {
+  constexpr std::int64_t kLookEvery = 20;  // ms
   const FileHandle handle(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));
   while (true) {
     const pid_t ended = waitpid(child, &status, WNOHANG);
-    if (ended == child || (ended < 0 && errno == ECHILD)) return true;
+    if (ended == child || (ended < 0 && errno == ECHILD)) return Waited::ended;
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0) return false;
+    if (left.count() <= 0) return Waited::too_long;
+    if (load_cancelled()) return Waited::cancelled;
     pollfd waiting{handle.get(), POLLIN, 0};
     // Kernels without process handles: look again every millisecond.
     const bool has_handle = handle.get() >= 0;
-    poll(&waiting, has_handle ? 1 : 0, has_handle ? static_cast<int>(left.count()) : 1);
+    const std::int64_t wait = std::min<std::int64_t>(left.count(), kLookEvery);
+    poll(&waiting, has_handle ? 1 : 0, has_handle ? static_cast<int>(wait) : 1);
   }
 }
 
@@ -164,13 +181,15 @@ ChildResult run_in_child(const std::function<std::string()>& work, const ChildLi
   }
 
   int status = 0;
-  if (!wait_until(child, deadline, status)) {
+  const Waited waited = wait_until(child, deadline, status);
+  if (waited != Waited::ended) {
     kill(child, SIGKILL);
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    ChildResult late;
-    late.outcome = ChildResult::Outcome::out_of_time;
-    return late;
+    ChildResult killed;
+    killed.outcome = waited == Waited::cancelled ? ChildResult::Outcome::cancelled
+                                                 : ChildResult::Outcome::out_of_time;
+    return killed;
   }
   return collect(file.get(), status);
 }

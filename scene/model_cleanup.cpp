@@ -1,5 +1,6 @@
 #include "scene/model_cleanup.h"
 
+#include "scene/load_watch.h"
 #include "scene/model_input.h"
 #include "scene/triangle.h"
 #include "scene/triangulate.h"
@@ -142,8 +143,11 @@ void finish_model(Model& model, const std::string& source, const Dropped& droppe
     throw InputError(source + ": more vertices or triangles than 32-bit indices can name; " +
                      "split the model");
   }
+  check_load();
   remove_unused_vertices(model.mesh);
+  check_load();
   repair_attributes(model.mesh);
+  check_load();
   repair_materials(model);
   report(dropped, source, model, model.warnings);
 }

@@ -1,6 +1,7 @@
 #include "scene/model_input.h"
 
 #include "scene/diagnostics.h"
+#include "scene/load_watch.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -58,8 +59,16 @@ std::string read_model_file(const std::filesystem::path& path) {
   } catch (const std::exception&) {
     throw InputError(name + ": the file does not fit into memory; use a smaller model");
   }
-  file.read(bytes.data(), static_cast<std::streamsize>(size));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  // By pieces, between which the loading may be cancelled.
+  constexpr std::uintmax_t kPiece = 4U << 20U;
+  std::size_t got = 0;
+  for (std::uintmax_t begin = 0; begin < size && file; begin += kPiece) {
+    report_load(static_cast<double>(begin) / static_cast<double>(size));
+    const std::uintmax_t piece = std::min(kPiece, size - begin);
+    file.read(bytes.data() + begin, static_cast<std::streamsize>(piece));
+    got += static_cast<std::size_t>(file.gcount());
+  }
+  bytes.resize(got);
   if (file.bad() || bytes.size() != size) {
     throw InputError(name + ": reading stopped after " + counted(bytes.size(), "byte") + " of " +
                      std::to_string(size) + "; check the disk");

@@ -8,7 +8,8 @@
 namespace encore::scene {
 
 /// Reads a whole model file. Throws InputError for what is missing, no regular file (folders, pipes
-/// and devices could block or never end), empty, unreadable or larger than memory.
+/// and devices could block or never end), empty, unreadable or larger than memory. Followed by
+/// load_watch.h, as all that loads.
 std::string read_model_file(const std::filesystem::path& path);
 
 /// Text from a file made fit for a message: control characters and broken UTF-8 become '?', and

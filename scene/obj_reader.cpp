@@ -1,5 +1,6 @@
 #include "scene/obj_reader.h"
 
+#include "scene/load_watch.h"
 #include "scene/model_cleanup.h"
 #include "scene/model_index_table.h"
 #include "scene/model_input.h"
@@ -228,6 +229,7 @@ void ObjContent::make_vertices(Mesh& mesh, std::vector<std::uint32_t>& corner_ve
   IndexTable<Corner, decltype(hash)> vertices(hash);
   corner_vertices.reserve(corners_.size());
   for (const Corner& corner : corners_) {
+    report_load(corner_vertices.size(), corners_.size());
     if (corner.position >= positions_.size()) {
       corner_vertices.push_back(kNoVertex);
       continue;
@@ -251,11 +253,13 @@ Model ObjContent::build() {
   if (!colors_.empty()) colors_.resize(positions_.size(), glm::vec3(1.0F));
   Model model;
   std::vector<std::uint32_t> vertices;
-  make_vertices(model.mesh, vertices);
+  in_load_part(0.0, 0.5, [&] { make_vertices(model.mesh, vertices); });
 
+  const LoadPart part(0.5, 1.0);
   PolygonAssembler assembler(model.mesh);
   std::size_t first = 0;
   for (const Face& face : faces_) {
+    report_load(static_cast<std::size_t>(&face - faces_.data()), faces_.size());
     assembler.add(std::span(vertices).subspan(first, face.corners), face.material,
                   [&face] { return std::string(":").append(std::to_string(face.line)); });
     first += face.corners;
@@ -295,8 +299,8 @@ Model read_obj(std::string_view text, const std::string& name,
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   try {
     ObjContent content(text, name, mtl_folder);
-    content.parse();
-    Model model = content.build();
+    in_load_part(0.0, 0.7, [&content] { content.parse(); });
+    Model model = in_load_part(0.7, 1.0, [&content] { return content.build(); });
     model.name = name;
     return model;
   } catch (const std::length_error&) {

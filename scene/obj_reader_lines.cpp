@@ -1,5 +1,6 @@
 #include "scene/obj_reader_lines.h"
 
+#include "scene/load_watch.h"
 #include "scene/model_number.h"
 
 namespace encore::scene {
@@ -35,6 +36,9 @@ bool is_digit(char c) {
 bool ObjLineFeed::next_statement() {
   if (rest_.empty()) return false;
   line_ = next_line_++;
+  if (line_ % 4096 == 1) {
+    report_load(1.0 - static_cast<double>(rest_.size()) / static_cast<double>(size_));
+  }
   std::string_view statement = take_line(rest_);
   if (statement.ends_with('\\')) {
     joined_.clear();

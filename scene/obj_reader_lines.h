@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <streambuf>
 #include <string>
@@ -17,9 +18,10 @@ namespace encore::scene {
 /// - blanks around and inside names are trimmed, so that usemtl finds what newmtl defined;
 /// - everything else stays outside (comments, groups, curves, material files, which go to
 ///   `on_other` instead).
+/// Reports to load_watch.h every few thousand lines.
 class ObjLineFeed : public std::streambuf {
  public:
-  explicit ObjLineFeed(std::string_view text) : rest_(text) {}
+  explicit ObjLineFeed(std::string_view text) : rest_(text), size_(text.size()) {}
   ~ObjLineFeed() override = default;
 
   /// Called for statements that do not go through tinyobjloader; the keyword is cut off.
@@ -37,6 +39,7 @@ class ObjLineFeed : public std::streambuf {
   void write_statement(std::string_view keyword);
 
   std::string_view rest_;
+  std::size_t size_;            // of the whole text
   std::string joined_;          // a statement made of several lines
   std::string_view arguments_;  // into the text or joined_
   std::string out_;             // what tinyobjloader gets

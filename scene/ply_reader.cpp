@@ -1,5 +1,6 @@
 #include "scene/ply_reader.h"
 
+#include "scene/load_watch.h"
 #include "scene/model_cleanup.h"
 #include "scene/model_input.h"
 #include "scene/ply_reader_values.h"
@@ -19,6 +20,9 @@ namespace {
 // Where a vertex property goes; the numbers index a row of floats.
 enum Slot { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kRed, kGreen, kBlue, kU, kV, kSlots };
 constexpr int kSkip = -1;
+
+// Values of one list between two looks at whether the loading is to end.
+constexpr std::uint64_t kLongList = 1U << 17U;
 
 struct SlotName {
   std::string_view name;
@@ -102,7 +106,11 @@ class PlyContent {
       : header_(header), values_(values), name_(name), warnings_(header.warnings) {}
 
   Model read() {
+    const auto kinds = static_cast<double>(std::max<std::size_t>(header_.elements.size(), 1));
+    double kind = 0.0;
     for (const PlyElement& element : header_.elements) {
+      const LoadPart part(0.7 * kind / kinds, 0.7 * (kind + 1.0) / kinds);
+      kind += 1.0;
       check_size(element);
       if (element.name == "vertex" && mesh_.positions.empty()) {
         read_vertices(element);
@@ -112,6 +120,7 @@ class PlyContent {
         skip(element);
       }
     }
+    const LoadPart part(0.7, 1.0);
     return build();
   }
 
@@ -145,12 +154,16 @@ class PlyContent {
 
   void skip(const PlyProperty& property) {
     const std::uint64_t count = property.is_list ? list_length(property) : 1;
-    for (std::uint64_t i = 0; i < count; ++i) values_.read(property.type);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (i % kLongList == kLongList - 1) check_load();
+      values_.read(property.type);
+    }
   }
 
   void skip(const PlyElement& element) {
     if (element.properties.empty()) return;
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      report_load(i, element.count);
       for (const PlyProperty& property : element.properties) skip(property);
     }
   }
@@ -179,6 +192,7 @@ class PlyContent {
     if (element.properties.empty()) return;
     mesh_.positions.reserve(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      report_load(i, element.count);
       std::array<float, kSlots> row{};
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         if (slots[p] == kSkip) {
@@ -215,6 +229,7 @@ class PlyContent {
     }
     std::vector<std::uint32_t> corners;
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      report_load(i, element.count);
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const PlyProperty& property = element.properties[p];
         if (static_cast<int>(p) != list) {
@@ -224,6 +239,7 @@ class PlyContent {
         const std::uint64_t length = list_length(property);
         corners.clear();
         for (std::uint64_t k = 0; k < length; ++k) {
+          if (k % kLongList == kLongList - 1) check_load();
           const double value = values_.read(property.type);
           // -1 ends a strip within the list; the next one starts to turn left anew.
           if (strips && value == -1.0) {
@@ -275,6 +291,7 @@ class PlyContent {
     model.mesh.triangles.reserve(sizes_.size());
     std::size_t first = 0;
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
+      report_load(i, sizes_.size());
       assembler.add(std::span(corners_).subspan(first, sizes_[i]), 0,
                     [i] { return ": face " + std::to_string(i); });
       first += sizes_[i];

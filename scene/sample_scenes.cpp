@@ -1,5 +1,6 @@
 #include "scene/sample_scenes.h"
 
+#include "scene/load_watch.h"
 #include "scene/samples/creatures.h"
 #include "scene/samples/mesh_tools.h"
 #include "scene/samples/scenes.h"
@@ -119,7 +120,10 @@ const std::vector<SampleScene>& sample_scenes() {
 
 std::optional<Scene> make_sample_scene(std::string_view name) {
   for (const Entry& entry : entries()) {
-    if (entry.about.name == name) return entry.make();
+    if (entry.about.name != name) continue;
+    note_load(entry.about.name);
+    report_load(0.0);
+    return entry.make();
   }
   return std::nullopt;
 }

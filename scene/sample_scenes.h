@@ -25,7 +25,7 @@ inline constexpr std::string_view kDefaultSceneName = "toys";
 
 const std::vector<SampleScene>& sample_scenes();
 
-/// Builds a sample scene by name; nothing if there is none of that name.
+/// Builds a sample scene by name; nothing if there is none of that name. Followed by load_watch.h.
 std::optional<Scene> make_sample_scene(std::string_view name);
 
 }  // namespace encore::scene

@@ -5,6 +5,7 @@
 #include "scene/mesh_reader.h"
 #include "scene/placement.h"
 #include "scene/sample_scenes.h"
+#include "scene/shipped_files.h"
 #include "scene/text_suggestion.h"
 
 #include <fmt/format.h>
@@ -50,7 +51,11 @@ fs::path existing(const std::string& name, const std::vector<fs::path>& search_p
   }
   std::vector<std::string_view> names;
   for (const SampleScene& sample : sample_scenes()) names.emplace_back(sample.name);
-  const std::string hint = did_you_mean(name, names);
+  const std::vector<std::string> shipped = shipped_names("scenes");
+  names.insert(names.end(), shipped.begin(), shipped.end());
+  std::string hint = did_you_mean(name, names);
+  const bool bare = fs::path(name).filename() == name && !fs::path(name).has_extension();
+  if (hint.empty() && bare && shipped_folder().empty()) hint = "; " + shipped_files_missing();
   throw InputError(
       fmt::format("{}: there is no such file or sample scene{} (the sample scenes: "
                   "encore scenes)",
@@ -77,7 +82,8 @@ Scene place_model(Model model) {
 
 Scene load_scene(const std::string& name_or_path, const std::vector<fs::path>& search_path) {
   if (auto sample = make_sample_scene(name_or_path)) return std::move(*sample);
-  const fs::path path = existing(name_or_path, search_path);
+  fs::path path = existing(name_or_path, search_path);
+  if (path.empty()) path = shipped_file("scenes", name_or_path);
   if (path.empty()) unknown_scene(name_or_path);
 
   // Files beside the scene file are named relative to it; an empty folder would forbid them.

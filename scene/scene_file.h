@@ -8,8 +8,10 @@
 namespace encore::scene {
 
 /// Loads a scene by what the argument is: the name of a sample scene, a scene file (*.toml), the
-/// original system's text scene (*.txt, see classic_scene_file.h), or a bare model file, which is
-/// placed as the thesis did (see place_model). Throws InputError.
+/// original system's text scene (*.txt, see classic_scene_file.h), a bare model file, which is
+/// placed as the thesis did (see place_model), or else the name of a scene file that ships with the
+/// program (assets/scenes, see shipped_files.h). Throws InputError. A LoadScope (load_watch.h)
+/// shows how far it is and may end it by LoadCancelled.
 Scene load_scene(const std::string& name_or_path,
                  const std::vector<std::filesystem::path>& search_path = {});
 

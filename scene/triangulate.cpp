@@ -1,5 +1,7 @@
 #include "scene/triangulate.h"
 
+#include "scene/load_watch.h"
+
 #include <glm/vec2.hpp>
 
 #include <cmath>
@@ -112,6 +114,7 @@ class EarClipper {
 
   void spend() {
     if (budget_ > 0) --budget_;
+    if (budget_ % 65536 == 0) check_load();
   }
 
   bool is_ear(std::uint32_t i) {

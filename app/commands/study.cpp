@@ -16,7 +16,10 @@ void add_study_command(CLI::App& app, ExitCode& result) {
   const auto options = std::make_shared<StudyOptions>();
   const auto quiet = std::make_shared<bool>(false);
   const auto gl_device = std::make_shared<std::optional<int>>();
-  command->add_option("study", options->file, "The study's file (.toml); see docs/studies.md")
+  command
+      ->add_option(
+          "study", options->file,
+          "The study's file (.toml), or one that ships: quick, thesis; see docs/studies.md")
       ->required();
   command->add_flag("--dry-run", options->dry_run,
                     "Check everything, tell how many tests and how long, and measure nothing");

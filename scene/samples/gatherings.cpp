@@ -1,3 +1,4 @@
+#include "scene/load_watch.h"
 #include "scene/samples/creatures.h"
 #include "scene/samples/mesh_tools.h"
 #include "scene/samples/noise.h"
@@ -128,7 +129,9 @@ double ground_height(double x, double z) {
 Scene still_life() {
   Scene scene = stage("still-life");
   const double floor = -13.5;
-  place(scene, make_model("bunny", bunny(69'451), {paint("fur", {0.78F, 0.7F, 0.62F}, 0.05F)}),
+  place(scene,
+        make_model("bunny", in_load_part(0.0, 0.7, [] { return bunny(69'451); }),
+                   {paint("fur", {0.78F, 0.7F, 0.62F}, 0.05F)}),
         at({-44.0, 0.0, -24.0}, 20.0));
   place(scene,
         make_model(
@@ -150,7 +153,7 @@ Scene still_life() {
         matrix_of(Frame{{60.0, 4.0, -64.0}}.turned({1.0, 0.0, 0.0}, 62.0), 1.2));
   place(scene,
         make_model(
-            "spider", spider(missing_to(scene, 98'867)),
+            "spider", in_load_part(0.7, 1.0, [&] { return spider(missing_to(scene, 98'867)); }),
             {paint("body", {0.24F, 0.2F, 0.2F}, 0.5F), paint("legs", {0.5F, 0.32F, 0.16F}, 0.3F)}),
         at({-14.0, floor, 30.0}, 60.0, 0.9));
   scene.camera.eye = {0.0F, 26.0F, 84.0F};
@@ -195,15 +198,19 @@ Scene forest() {
   const auto on_ground = [](double x, double z, double lift, double yaw, double scale) {
     return at({x, ground_height(x, z) + lift, z}, yaw, scale);
   };
-  place(scene, make_model("dragon", dragon(202'520), {paint("jade", {0.2F, 0.52F, 0.36F}, 0.5F)}),
+  place(scene,
+        make_model("dragon", in_load_part(0.0, 0.55, [] { return dragon(202'520); }),
+                   {paint("jade", {0.2F, 0.52F, 0.36F}, 0.5F)}),
         on_ground(9.0, -14.0, 8.4, 4.0, 0.95));
-  place(scene, make_model("bunny", bunny(69'451), {paint("fur", {0.8F, 0.74F, 0.66F}, 0.05F)}),
+  place(scene,
+        make_model("bunny", in_load_part(0.55, 0.8, [] { return bunny(69'451); }),
+                   {paint("fur", {0.8F, 0.74F, 0.66F}, 0.05F)}),
         on_ground(-15.0, 2.0, 4.35, 18.0, 0.34));
   const Material bark = paint("bark", {0.34F, 0.23F, 0.15F}, 0.0F);
   const std::shared_ptr<const Model> trees[2] = {
-      make_model("oak", tree(71, 17'000),
+      make_model("oak", in_load_part(0.8, 0.86, [] { return tree(71, 17'000); }),
                  {bark, paint("oak leaves", {0.22F, 0.45F, 0.14F}, 0.05F)}),
-      make_model("beech", tree(81, 13'000),
+      make_model("beech", in_load_part(0.86, 0.9, [] { return tree(81, 13'000); }),
                  {bark, paint("beech leaves", {0.5F, 0.52F, 0.13F}, 0.05F)})};
   Dice dice(91);
   // Trees stand in a ring around the clearing, open towards the camera.
@@ -235,6 +242,7 @@ Scene forest() {
     const double z = 50.0 - 200.0 * v;
     return Vec(x, ground_height(x, z), z);
   });
+  check_load();
   split_to(ground, left);
   place(scene, make_model("ground", smooth(std::move(ground)),
                           {paint("grass", {0.3F, 0.42F, 0.16F}, 0.0F)}));

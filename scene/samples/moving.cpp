@@ -1,3 +1,4 @@
+#include "scene/load_watch.h"
 #include "scene/samples/mesh_tools.h"
 #include "scene/samples/scenes.h"
 #include "scene/samples/sculpture.h"
@@ -80,6 +81,7 @@ Scene metaballs() {
   FrameSequence sequence;
   sequence.frames_per_second = 8.0F;
   for (int frame = 0; frame < kFrames; ++frame) {
+    const FramePart part{std::size_t(frame), std::size_t(kFrames)};
     sequence.frames.push_back(drops_at(double(frame) / kFrames));
   }
   Scene scene = stage("metaballs");

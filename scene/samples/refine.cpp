@@ -1,5 +1,6 @@
 #include "scene/samples/refine.h"
 
+#include "scene/load_watch.h"
 #include "scene/samples/mesh_tools.h"
 
 #include <algorithm>
@@ -38,13 +39,18 @@ void cut(Mesh& mesh, std::uint32_t triangle, const Edge& edge, std::uint32_t m) 
 /// Splits up to `missing / 2` inner edges (boundary edges if `boundary`, up to `missing`), longest
 /// first, no two at the same triangle. Returns the number of triangles added.
 std::size_t split_pass(Mesh& mesh, std::size_t missing, bool boundary) {
+  check_load();
   const EdgeTable table = find_edges(mesh);
+  check_load();
   const std::vector<double> lengths = squared_lengths(mesh, table.edges);
   std::vector<std::uint32_t> order(table.edges.size());
   std::iota(order.begin(), order.end(), 0U);
+  std::size_t comparisons = 0;
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    if (++comparisons % (1U << 17U) == 0) check_load();
     return lengths[i] != lengths[j] ? lengths[i] > lengths[j] : i < j;
   });
+  check_load();
   std::vector<char> touched(mesh.triangles.size(), 0);
   std::size_t added = 0;
   const std::size_t step = boundary ? 1 : 2;

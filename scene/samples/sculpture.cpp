@@ -1,14 +1,21 @@
 #include "scene/samples/sculpture.h"
 
+#include "scene/load_watch.h"
 #include "scene/samples/mesh_tools.h"
 #include "scene/samples/refine.h"
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace encore::scene::samples {
 
 namespace {
+
+// About what share of the work is done when the surface is sampled, and, of the rest, when it has
+// all its triangles (load_watch.h).
+constexpr double kSampled = 0.3;
+constexpr double kSplit = 0.3;
 
 /// Distances on the corners of a lattice.
 struct Lattice {
@@ -256,6 +263,7 @@ Mesh Sculpture::surface(double cell) const {
       first[k] = std::max(int((s.low[k] - rim[k] - low[k]) / cell), 0);
       last[k] = std::min(int((s.high[k] + rim[k] - low[k]) / cell) + 1, lattice.corners[k] - 1);
     }
+    check_load();
     for (int z = first.z; z <= last.z; ++z) {
       for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
@@ -266,6 +274,7 @@ Mesh Sculpture::surface(double cell) const {
       }
     }
   }
+  check_load();
   fill_pinches(lattice);
   Mesh mesh;
   const std::vector<std::uint32_t> vertex_of = place_vertices(lattice, mesh);
@@ -294,6 +303,7 @@ Mesh Sculpture::surface_of(std::size_t most) const {
 void emboss(Mesh& mesh, const Relief& relief) {
   smooth_normals(mesh);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    report_load(i, mesh.positions.size());
     const Vec p = widen(mesh.positions[i]);
     const Vec n = widen(mesh.normals[i]);
     mesh.positions[i] = narrow(p + n * relief(p, n));
@@ -302,17 +312,25 @@ void emboss(Mesh& mesh, const Relief& relief) {
 
 Mesh finished(const Sculpture& sculpture, std::size_t target, int levels, const Relief& relief) {
   const std::size_t base = target >> std::size_t(2 * levels);
-  return finished(sculpture.surface_of(base & ~std::size_t(1)), target, levels, relief);
+  Mesh sampled = sculpture.surface_of(base & ~std::size_t(1));
+  const LoadPart rest(kSampled, 1.0);
+  return finished(std::move(sampled), target, levels, relief);
 }
 
 Mesh finished(Mesh base, std::size_t target, int levels, const Relief& relief) {
   std::size_t wanted = target >> std::size_t(2 * levels);
   // A closed mesh can only take an even number; what is left over is split after subdividing.
   if (levels > 0 && (wanted - base.triangles.size()) % 2 != 0) --wanted;
+  report_load(0.0);
   split_to(base, wanted);
-  for (int i = 0; i < levels; ++i) base = subdivide(base);
+  for (int i = 0; i < levels; ++i) {
+    check_load();
+    base = subdivide(base);
+  }
   split_to(base, target);
+  const LoadPart rest(kSplit, 1.0);
   if (relief) emboss(base, relief);
+  check_load();
   smooth_normals(base);
   return base;
 }
