@@ -1,7 +1,10 @@
 #pragma once
 
+#include "accel/build_watch.h"
 #include "accel/counters.h"
 #include "accel/gpu_buffers.h"
+#include "accel/inspect/ray_path.h"
+#include "accel/inspect/ray_recording.h"
 #include "accel/stats.h"
 #include "scene/bounds.h"
 #include "scene/ray.h"
@@ -10,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -29,6 +33,9 @@ struct NodeView {
   int split_axis = -1;                       ///< kd-tree inner nodes only
   float split_position = 0;                  ///< kd-tree inner nodes only
   std::span<const std::uint32_t> triangles;  ///< leaves only
+  /// What trace_path() calls this node: a number of its own, at most a few times the number of
+  /// nodes (grids: of cells). A refit does not change it.
+  std::uint32_t place = 0;
 };
 
 /// The interface of every acceleration structure (thesis, appendix B).
@@ -46,13 +53,29 @@ class AccelerationStructure {
 
   [[nodiscard]] virtual std::string_view name() const = 0;
 
-  /// Builds the structure over the triangles from scratch. Zero triangles are valid.
+  /// Builds the structure over the triangles from scratch. Zero triangles are valid. Throws
+  /// BuildCancelled if set_build_watch() asks for it; after that, or if memory runs out, the
+  /// structure is as if built over no triangles: valid, and without a hit.
   virtual void build(std::span<const Triangle> triangles) = 0;
 
   /// Adapts the structure to triangles that moved; their number and order must be those of the last
   /// build. Structures that cannot are rebuilt.
   virtual void update(std::span<const Triangle> triangles) { build(triangles); }
   [[nodiscard]] virtual bool can_refit() const { return false; }
+  /// Looks at how good the structure is as it stands, for decay() and decayed(); to be called after
+  /// every build and update whose quality is to be known.
+  virtual void assess() {}
+  /// Expected cost of a ray now over that right after the last build. Nothing for structures whose
+  /// updates lose nothing, and where assess() was not called after the last change or not between
+  /// the last build and the first update after it.
+  [[nodiscard]] virtual std::optional<double> decay() const { return std::nullopt; }
+  /// Whether the structure should be built instead of updated (Policy::automatic): decay() has
+  /// reached what the settings allow, or is not known though updates cost quality.
+  [[nodiscard]] virtual bool decayed() const { return false; }
+  /// Who follows the builds from now on and may end them; null: nobody. The watch must outlive
+  /// them. Updates that are no builds are short, and a half-updated structure would be wrong: they
+  /// are not watched.
+  void set_build_watch(BuildWatch* watch) { watch_ = watch; }
 
   /// Finds the nearest hit of each ray; hits.size() == rays.size().
   virtual void intersect(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
@@ -61,6 +84,14 @@ class AccelerationStructure {
                                  std::span<TraceCounters> counters) const = 0;
   /// Whether each ray hits anything at all (any-hit): 1 or 0.
   virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const = 0;
+
+  /// The nearest hit of one ray, the same as intersect()'s, and everything that happens on the way:
+  /// the very traversal that intersect_counted() runs, written down. A structure that cannot tell
+  /// leaves RayPath::recorded false.
+  virtual void trace_path(const Ray& ray, Hit& hit, RayPath& path) const {
+    path.clear();
+    intersect({&ray, 1}, {&hit, 1});
+  }
 
   /// Figures of the last build and of the structure. Computed when asked, not while building, apart
   /// from what is counted anyway.
@@ -78,14 +109,17 @@ class AccelerationStructure {
  protected:
   /// Every build() and update() calls it.
   void mark_changed() { ++version_; }
+  [[nodiscard]] BuildWatch* build_watch() const { return watch_; }
 
  private:
+  BuildWatch* watch_ = nullptr;
   std::uint64_t version_ = 0;
 };
 
-/// Implements the three batch calls over `Derived::trace<AnyHit>(ray, hit, counter_policy)`, so
-/// that the inner loop is compiled once for each use and no ray pays a virtual call. `trace` starts
-/// from a hit that is a miss with t = ray.t_max and may return early with any hit if AnyHit.
+/// Implements the three batch calls and trace_path() over `Derived::trace<AnyHit>(ray, hit,
+/// counter_policy)`, so that the inner loop is compiled once for each use and no ray pays a virtual
+/// call. `trace` starts from a hit that is a miss with t = ray.t_max and may return early with any
+/// hit if AnyHit.
 template <class Derived>
 class TracedStructure : public AccelerationStructure {
  public:
@@ -112,6 +146,12 @@ class TracedStructure : public AccelerationStructure {
       self().template trace<true>(rays[i], hit, none);
       blocked[i] = hit.found() ? 1 : 0;
     }
+  }
+  void trace_path(const Ray& ray, Hit& hit, RayPath& path) const final {
+    hit = Hit{.t = ray.t_max};
+    Recording recording(ray, path);
+    self().template trace<false>(ray, hit, recording);
+    recording.end(hit);
   }
 
  private:

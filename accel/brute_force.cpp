@@ -12,14 +12,14 @@ namespace encore::accel {
 template <bool AnyHit, class Counter>
 void BruteForce::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   const TriangleFilter filter(ray);
-  counter.step();
+  counter.node(0, ray.t_min, ray.t_max);
   constexpr std::uint32_t kBatch = 64;
   std::array<std::uint32_t, kBatch> references;
   const auto count = static_cast<std::uint32_t>(triangles_.size());
   for (std::uint32_t first = 0; first < count; first += kBatch) {
     const std::uint32_t n = std::min(kBatch, count - first);
     std::iota(references.begin(), references.begin() + n, first);
-    counter.triangle_tests(n);
+    counter.triangles(triangles_.data(), references.data(), n, hit);
     if (filter.test(triangles_.data(), references.data(), n, hit) && AnyHit) return;
   }
 }
@@ -43,6 +43,7 @@ void BruteForce::visit(const std::function<bool(const NodeView&)>& visitor) cons
 
 template void BruteForce::trace<false, NotCounting>(const Ray&, Hit&, NotCounting&) const;
 template void BruteForce::trace<false, Counting>(const Ray&, Hit&, Counting&) const;
+template void BruteForce::trace<false, Recording>(const Ray&, Hit&, Recording&) const;
 template void BruteForce::trace<true, NotCounting>(const Ray&, Hit&, NotCounting&) const;
 
 }  // namespace encore::accel

@@ -11,7 +11,11 @@ class BruteForce final : public TracedStructure<BruteForce> {
   [[nodiscard]] std::string_view name() const override { return "brute"; }
   void build(std::span<const Triangle> triangles) override {
     mark_changed();
+    triangles_ = {};
+    BuildMeter meter(build_watch());
+    meter.check();
     triangles_ = triangles;
+    meter.finish();
   }
   [[nodiscard]] bool can_refit() const override { return true; }
   [[nodiscard]] BuildStats stats() const override;

@@ -19,8 +19,10 @@ constexpr Names<StructureKind, 6> kStructures{{{StructureKind::brute, "brute"},
                                                {StructureKind::kd_median, "kd-median"},
                                                {StructureKind::kd_sah, "kd-sah"},
                                                {StructureKind::bvh_median, "bvh-median"}}};
-constexpr Names<Policy, 3> kPolicies{
-    {{Policy::rebuild, "rebuild"}, {Policy::refit, "refit"}, {Policy::fixed, "static"}}};
+constexpr Names<Policy, 4> kPolicies{{{Policy::rebuild, "rebuild"},
+                                      {Policy::refit, "refit"},
+                                      {Policy::automatic, "auto"},
+                                      {Policy::fixed, "static"}}};
 constexpr Names<MemoryMode, 2> kMemoryModes{
     {{MemoryMode::fresh, "malloc"}, {MemoryMode::pool, "pool"}}};
 constexpr Names<UpdateCase, 4> kUpdateCases{{{UpdateCase::real, "real"},
@@ -107,6 +109,7 @@ std::string apply_bvh(BvhSettings& bvh, std::string_view key, std::string_view v
   if (key == "bvh.seed") {
     return assign<std::uint64_t>(bvh.seed, key, value, 0, ~std::uint64_t{0});
   }
+  if (key == "bvh.rebuild_at") return assign(bvh.rebuild_at, key, value, 1.001F, 1e6F);
   return fmt::format("unknown setting '{}'", key);
 }
 
@@ -147,6 +150,15 @@ const std::vector<StructureKind>& all_structure_kinds() {
   return kinds;
 }
 
+const std::vector<Policy>& all_policies() {
+  static const std::vector<Policy> policies = [] {
+    std::vector<Policy> all;
+    for (const auto& [policy, name] : kPolicies) all.push_back(policy);
+    return all;
+  }();
+  return policies;
+}
+
 const std::vector<std::string_view>& setting_keys() {
   static const std::vector<std::string_view> keys{"grid.cells_per_axis",
                                                   "grid.density",
@@ -160,7 +172,8 @@ const std::vector<std::string_view>& setting_keys() {
                                                   "kd.intersection_cost",
                                                   "kd.empty_bonus",
                                                   "bvh.update_case",
-                                                  "bvh.seed"};
+                                                  "bvh.seed",
+                                                  "bvh.rebuild_at"};
   return keys;
 }
 

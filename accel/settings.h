@@ -17,6 +17,8 @@ enum class Policy {
   rebuild,  ///< build afresh (thesis: BV-F)
   refit,    ///< keep the topology, fit the bounds (thesis: BV-U); structures that cannot, rebuild
   fixed,    ///< "static": nothing, whatever the scene does
+  /// "auto": refit while the structure is good, rebuild when it has decayed (update_policy.h)
+  automatic,
 };
 
 /// Where a build's memory comes from.
@@ -39,6 +41,8 @@ struct GridSettings {
   int cells_per_axis = 0;
   /// Factor on the automatic choice (1 = thesis).
   float density = 1.0F;
+
+  friend bool operator==(const GridSettings&, const GridSettings&) = default;
 };
 
 struct KdTreeSettings {
@@ -60,15 +64,24 @@ struct KdTreeSettings {
   float traversal_cost = 1.0F;
   float intersection_cost = 80.0F;
   float empty_bonus = 0.5F;
+
+  friend bool operator==(const KdTreeSettings&, const KdTreeSettings&) = default;
 };
 
 struct BvhSettings {
   UpdateCase update_case = UpdateCase::real;
   /// Seed of UpdateCase::average.
   std::uint64_t seed = 1;
+  /// Policy::automatic: rebuild when the SAH cost has grown to this multiple of what it was after
+  /// the last build. Near 1: almost every frame. Large: never.
+  float rebuild_at = 1.25F;
+
+  friend bool operator==(const BvhSettings&, const BvhSettings&) = default;
 };
 
-struct BruteSettings {};
+struct BruteSettings {
+  friend bool operator==(const BruteSettings&, const BruteSettings&) = default;
+};
 
 using StructureSettings = std::variant<BruteSettings, GridSettings, KdTreeSettings, BvhSettings>;
 
@@ -77,6 +90,8 @@ struct StructureSpec {
   StructureKind kind = StructureKind::bvh_median;
   StructureSettings settings = BvhSettings{};
   MemoryMode memory = MemoryMode::pool;
+
+  friend bool operator==(const StructureSpec&, const StructureSpec&) = default;
 };
 
 /// The names, exactly as the command line, files and tables use them.
@@ -88,6 +103,8 @@ std::optional<StructureKind> parse_structure_kind(std::string_view name);
 std::optional<Policy> parse_policy(std::string_view name);
 std::optional<MemoryMode> parse_memory_mode(std::string_view name);
 std::optional<UpdateCase> parse_update_case(std::string_view name);
+/// All policies, in the order of the documentation.
+const std::vector<Policy>& all_policies();
 const std::vector<StructureKind>& all_structure_kinds();
 
 /// A spec with the documented defaults of that kind.

@@ -106,10 +106,9 @@ void FrameWorkload::update_marked(energy::PhaseLog& log) {
 }
 
 FrameWorkload::Fitting FrameWorkload::fitting() const {
-  if (!structure_ || spec_.policy != accel::Policy::refit || !structure_->can_refit()) {
-    return Fitting::none;
-  }
-  return tracer_ != nullptr && tracer_->can_refit() ? Fitting::device : Fitting::host;
+  if (!structure_ || !accel::updates(spec_.policy, *structure_)) return Fitting::none;
+  const bool own = tracer_ != nullptr && tracer_->can_refit();
+  return own && spec_.policy == accel::Policy::refit ? Fitting::device : Fitting::host;
 }
 
 void FrameWorkload::refresh_unmarked() {

@@ -31,9 +31,8 @@ TestKind parse_test(const std::string& name) {
 }
 
 std::string unknown_policy(const std::string& name) {
-  const std::string_view names[] = {accel::to_string(Policy::rebuild),
-                                    accel::to_string(Policy::refit),
-                                    accel::to_string(Policy::fixed)};
+  std::vector<std::string_view> names;
+  for (const Policy policy : accel::all_policies()) names.push_back(accel::to_string(policy));
   return fmt::format("unknown policy '{}'{}; there are {}", name, scene::did_you_mean(name, names),
                      fmt::join(names, ", "));
 }
@@ -155,7 +154,8 @@ class ScenePlan {
   [[nodiscard]] std::vector<Policy> distinct_policies(bool can_refit) const {
     std::vector<Policy> distinct;
     for (Policy policy : policies_) {
-      if (policy == Policy::refit && !can_refit) policy = Policy::rebuild;
+      const bool refits = policy == Policy::refit || policy == Policy::automatic;
+      if (refits && !can_refit) policy = Policy::rebuild;
       if (std::find(distinct.begin(), distinct.end(), policy) == distinct.end()) {
         distinct.push_back(policy);
       }

@@ -126,8 +126,9 @@ class Derivation {
     subtract_test(Phase::update,
                   {{{"test", "build"}},
                    {"scene", "structure", "memory", "repeat", "device", "policy", "update_case"}},
-                  fmt::format("test build of device {} under policy {}",
-                              value_of(frames_, "device"), policy));
+                  policy == "auto" ? "test of updates under policy auto (there is none)"
+                                   : fmt::format("test build of device {} under policy {}",
+                                                 value_of(frames_, "device"), policy));
     subtract_test(Phase::render,
                   {{{"test", "static"}},
                    {"scene", "structure", "memory", "repeat", "device", "width", "height"}},

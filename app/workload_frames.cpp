@@ -9,6 +9,7 @@
 namespace encore::app {
 
 using accel::Policy;
+using accel::UpdateAction;
 using energy::Phase;
 using scene::FrameSequence;
 using scene::TriangleChange;
@@ -66,11 +67,8 @@ double DynamicWorkload::time_of(std::uint64_t frame) const {
   return (static_cast<double>(frame) + 0.5) * step_s_;
 }
 
-DynamicWorkload::Reaction DynamicWorkload::reaction(TriangleChange change) const {
-  const bool follows = structure_ && spec_.policy != Policy::fixed;
-  if (change == TriangleChange::none || !follows) return Reaction::nothing;
-  return fitting() != Fitting::none && change == TriangleChange::moved ? Reaction::update
-                                                                       : Reaction::build;
+UpdateAction DynamicWorkload::reaction(TriangleChange change) const {
+  return structure_ ? accel::decide(spec_.policy, *structure_, change) : UpdateAction::none;
 }
 
 void DynamicWorkload::start() {
@@ -94,14 +92,14 @@ void DynamicWorkload::prepare() {
 void DynamicWorkload::check_later_frame() {
   // A structure that follows the motion must still be right after a good part of the loop.
   switch (reaction(go_to(time_of(0) + 0.37 * spec_.scene->duration_s()))) {
-    case Reaction::nothing:
+    case UpdateAction::none:
       break;
-    case Reaction::build:
+    case UpdateAction::build:
       build();
       refresh_unmarked();
       check("rebuild");
       break;
-    case Reaction::update:
+    case UpdateAction::update:
       fit_unmarked();
       check("update");
       break;
@@ -121,17 +119,17 @@ void DynamicWorkload::build_noted(energy::PhaseLog& log) {
 
 void DynamicWorkload::follow(energy::PhaseLog& log) {
   const TriangleChange change = std::exchange(pending_, TriangleChange::none);
-  const Reaction what = reaction(change);
-  if (what == Reaction::build) build_noted(log);
+  const UpdateAction what = reaction(change);
+  if (what == UpdateAction::build) build_noted(log);
   // A structure left alone refers to triangles by place, so there must still be as many.
   if (structure_ && triangles_.triangles.size() != built_over_) {
     throw std::runtime_error("the triangle count of scene " + spec_.scene->name +
                              " changed, which policy static cannot follow; use rebuild");
   }
   const bool on_device = fitting() == Fitting::device;
-  if (what == Reaction::update && !on_device) update_marked(log);
+  if (what == UpdateAction::update && !on_device) update_marked(log);
   if (change != TriangleChange::none) send(log);
-  if (what == Reaction::update && on_device) update_marked(log);
+  if (what == UpdateAction::update && on_device) update_marked(log);
 }
 
 void DynamicWorkload::frame(energy::PhaseLog& log) {
@@ -143,7 +141,11 @@ void DynamicWorkload::frame(energy::PhaseLog& log) {
 std::vector<Phase> DynamicWorkload::separable() const {
   std::vector<Phase> phases{Phase::animate};
   if (structure_ && spec_.policy != Policy::fixed) {
-    phases.push_back(fitting() != Fitting::none ? Phase::update : Phase::build);
+    if (fitting() != Fitting::none) phases.push_back(Phase::update);
+    // Of those that did not happen none is repeated.
+    if (fitting() == Fitting::none || spec_.policy == Policy::automatic) {
+      phases.push_back(Phase::build);
+    }
   }
   if (transfers()) phases.push_back(Phase::transfer);
   phases.push_back(Phase::render);

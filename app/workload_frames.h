@@ -36,7 +36,7 @@ class FrameWorkload : public SceneWorkload {
   /// Who fits the structure to triangles that moved, where the policy wants it fitted.
   enum class Fitting {
     none,    ///< nobody: it is built instead, or left alone
-    host,    ///< the CPU, before it is sent
+    host,    ///< the CPU, before it is sent; under Policy::automatic always, to see how it decays
     device,  ///< the device fits its own copy, after the triangles were sent; the host's stays
   };
   /// Of use after init_renderer().
@@ -90,9 +90,10 @@ class StaticWorkload final : public FrameWorkload {
 
 /// Plays the animation frame by frame at a fixed step, so that every run, however fast the machine,
 /// sees the same frames: 1/30 s, or the frame rate of a scene that only shows frame sequences. The
-/// structure is built, updated or left alone as the policy says, and left alone whatever the policy
-/// when no triangle changed. To a device with copies, what changed is sent after a build or an
-/// update on the host; where the device updates its own copy, the triangles are sent before.
+/// structure is built, updated or left alone as the policy says (accel::decide), and left alone
+/// whatever the policy when no triangle changed. To a device with copies, what changed is sent
+/// after a build or an update on the host; where the device updates its own copy, the triangles are
+/// sent before.
 class DynamicWorkload final : public FrameWorkload {
  public:
   DynamicWorkload(WorkloadSpec spec, const WorkloadTools& tools);
@@ -117,8 +118,7 @@ class DynamicWorkload final : public FrameWorkload {
   void build_noted(energy::PhaseLog& log);
   [[nodiscard]] double time_of(std::uint64_t frame) const;
   /// What the policy makes of a change, without doing it.
-  enum class Reaction { nothing, build, update };
-  [[nodiscard]] Reaction reaction(scene::TriangleChange change) const;
+  [[nodiscard]] accel::UpdateAction reaction(scene::TriangleChange change) const;
   void start();
   void check_later_frame();
 

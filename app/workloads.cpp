@@ -89,9 +89,7 @@ class BuildWorkload final : public SceneWorkload {
   }
 
  private:
-  [[nodiscard]] bool updates() const {
-    return spec_.policy == Policy::refit && structure_->can_refit();
-  }
+  [[nodiscard]] bool updates() const { return accel::updates(spec_.policy, *structure_); }
 };
 
 }  // namespace
@@ -142,7 +140,7 @@ std::vector<energy::KeyValue> configuration_of(const WorkloadSpec& spec, std::si
   // No policy is at work where nothing moves, or there is no structure.
   const Policy policy = spec.test == TestKind::fixed || !traces ? Policy::fixed : spec.policy;
   const auto* bvh = std::get_if<accel::BvhSettings>(&spec.structure.settings);
-  const bool updates = policy == Policy::refit && bvh != nullptr;
+  const bool updates = (policy == Policy::refit || policy == Policy::automatic) && bvh != nullptr;
   return {{"group", spec.group},
           {"scene", spec.scene->name},
           {"device", std::string(to_string(spec.device))},
@@ -305,6 +303,12 @@ std::string reason_to_skip(const WorkloadSpec& spec) {
   if (builds && spec.policy == Policy::fixed) {
     return fmt::format("policy static builds nothing, so test {} has nothing to measure",
                        to_string(spec.test));
+  }
+  if (builds && spec.policy == Policy::automatic) {
+    return fmt::format(
+        "nothing decays where nothing moves, so test {} under policy auto would be that of refit "
+        "again",
+        to_string(spec.test));
   }
   if (spec.device == Device::gpu && spec.test == TestKind::build && spec.policy != Policy::refit) {
     return "structures are built on the CPU, so test build on device gpu would be that of cpu "

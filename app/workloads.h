@@ -2,6 +2,7 @@
 
 #include "accel/acceleration_structure.h"
 #include "accel/settings.h"
+#include "accel/update_policy.h"
 #include "accel/verify.h"
 #include "app/common_options.h"
 #include "app/device.h"
@@ -24,6 +25,7 @@ namespace encore::app {
 enum class TestKind {
   /// A loop of builds, or of updates with Policy::refit, forced though nothing changed. Structures
   /// are built on the CPU, so on the GPU there are only its own updates.
+  /// Policy::automatic has neither this test nor forced: nothing decays where nothing moves.
   build,
   fixed,     ///< "static": build once, then a loop of frames
   animated,  ///< "dynamic": animate, build or update by the policy, render, frame by frame
@@ -118,8 +120,11 @@ class SceneWorkload : public energy::Workload {
   scene::TriangleChange go_to(double time_s) {
     return scene::update_triangles(*spec_.scene, time_s, triangles_);
   }
-  void build() { structure_->build(triangles_.triangles); }
-  void update() { structure_->update(triangles_.triangles); }
+  void build() { carry_out(accel::UpdateAction::build); }
+  void update() { carry_out(accel::UpdateAction::update); }
+  void carry_out(accel::UpdateAction action) {
+    accel::carry_out(action, spec_.policy, *structure_, triangles_.triangles);
+  }
   /// Compares the hits of what is traced, as it is, with brute force; `when` says after what. Does
   /// nothing where no rays are traced.
   void check(std::string_view when) const;

@@ -25,12 +25,25 @@ void Bvh::build(std::span<const Triangle> triangles) {
     throw std::length_error("a bounding volume hierarchy holds at most 2147483648 triangles");
   }
   mark_changed();
+  BuildMeter meter(build_watch());
+  try {
+    build_over(triangles, meter);
+  } catch (...) {
+    BuildMeter unwatched(nullptr);
+    build_over({}, unwatched);
+    throw;
+  }
+  meter.finish();
+}
+
+void Bvh::build_over(std::span<const Triangle> triangles, BuildMeter& meter) {
   triangles_ = triangles;
   allocations_ = {};
   refit_ = {};
+  quality_.forget();
   max_depth_ = 0;
   pairs_.reset(triangles.size(), memory_, allocations_);
-  if (!triangles.empty()) build_median();
+  if (!triangles.empty()) build_median(meter);
   if (memory_ == MemoryMode::fresh) {
     items_.release();
     changed_.release();
@@ -51,14 +64,13 @@ BuildStats Bvh::stats() const {
   stats.nodes = nodes().size();
   stats.max_depth = max_depth_;
   stats.bytes = nodes().size_bytes();
-  // A box without area is met by no random ray: its cost stays 0.
-  double cost = 0;
-  for (const gpu::BvhNode& node : nodes()) {
-    cost += bounds_of_node(node).area() * (node.count == 0 ? 1.0 : node.count);
-  }
-  const double root_area = nodes().empty() ? 0.0 : bounds_of_node(*root()).area();
-  stats.sah_cost = root_area > 0 ? cost / root_area : 0.0;
+  stats.sah_cost = bvh_sah_cost(nodes());
   return stats;
+}
+
+bool Bvh::decayed() const {
+  const std::optional<double> decay = quality_.decay();
+  return !decay || *decay >= double(settings_.rebuild_at);
 }
 
 GpuBuffers Bvh::gpu_buffers() const {
@@ -90,6 +102,7 @@ void Bvh::visit(const std::function<bool(const NodeView&)>& visitor) const {
     view.bounds = bounds_of_node(node);
     view.depth = task.depth;
     view.leaf = node.count != 0;
+    view.place = place(node.first, node.count);
     if (view.leaf) view.triangles = {&node.first, 1};
     if (!visitor(view) || view.leaf) continue;
     waiting[waiting_count++] = {node.first + 1, task.depth + 1};

@@ -2,6 +2,7 @@
 
 #include "accel/acceleration_structure.h"
 #include "accel/array.h"
+#include "accel/bvh/bvh_quality.h"
 #include "accel/settings.h"
 #include "shaders/shared/gpu_types.h"
 
@@ -52,6 +53,9 @@ class Bvh final : public TracedStructure<Bvh> {
   /// keep their boxes even if their triangles did move.
   void update(std::span<const Triangle> triangles) override;
   [[nodiscard]] bool can_refit() const override { return true; }
+  void assess() override { quality_.assess(nodes()); }
+  [[nodiscard]] std::optional<double> decay() const override { return quality_.decay(); }
+  [[nodiscard]] bool decayed() const override;
   [[nodiscard]] BuildStats stats() const override;
   [[nodiscard]] GpuBuffers gpu_buffers() const override;
   [[nodiscard]] gpu::StructureParameters gpu_parameters() const override;
@@ -88,10 +92,17 @@ class Bvh final : public TracedStructure<Bvh> {
     return reinterpret_cast<const gpu::BvhNode*>(pairs_.data()) + 1;
   }
 
-  void build_median();
-  void fill_items();
-  Range fit(gpu::BvhNode& node, std::uint32_t begin, std::uint32_t end) const;
-  [[nodiscard]] std::uint32_t split(const Range& range, std::uint32_t depth);
+  /// NodeView::place, from what a traversal knows of a node anyway: the inner node whose children
+  /// are pair k is k - 1, the leaf of triangle t is #T - 1 + t.
+  [[nodiscard]] std::uint32_t place(std::uint32_t first, std::uint32_t count) const {
+    return count == 0 ? (first - 1) / 2 : static_cast<std::uint32_t>(triangles_.size()) - 1 + first;
+  }
+
+  void build_over(std::span<const Triangle> triangles, BuildMeter& meter);
+  void build_median(BuildMeter& meter);
+  void fill_items(BuildMeter& meter);
+  Range fit(gpu::BvhNode& node, std::uint32_t begin, std::uint32_t end, BuildMeter& meter) const;
+  [[nodiscard]] std::uint32_t split(const Range& range, std::uint32_t depth, BuildMeter& meter);
   template <UpdateCase Case>
   void refit();
   template <UpdateCase Case>
@@ -107,6 +118,7 @@ class Bvh final : public TracedStructure<Bvh> {
   std::uint32_t max_depth_ = 0;
   AllocationCount allocations_;
   RefitCounts refit_;
+  BvhQuality quality_;
 };
 
 }  // namespace encore::accel

@@ -108,6 +108,7 @@ void Bvh::update(std::span<const Triangle> triangles) {
   triangles_ = triangles;
   allocations_ = {};
   refit_ = {};
+  quality_.outdate();
   if (triangles.empty()) return;
   changed_.reset(pairs_.size(), memory_, allocations_);
   switch (settings_.update_case) {

@@ -3,8 +3,16 @@
 #include "accel/triangle_filter.h"
 
 #include <array>
+#include <limits>
 
 namespace encore::accel {
+
+namespace {
+
+// Where the ray leaves a node's box is not kept.
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
 
 template <bool AnyHit, class Counter>
 void Bvh::trace(const Ray& ray, Hit& hit, Counter& counter) const {
@@ -13,8 +21,8 @@ void Bvh::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   const Triangle* const triangles = triangles_.data();
   const TriangleFilter filter(ray);
   if (nodes->count != 0) {
-    counter.step();
-    counter.triangle_tests(1);
+    counter.node(place(nodes->first, 1), ray.t_min, kUnknown);
+    counter.triangle(triangles, nodes->first, hit);
     filter.test(triangles, nodes->first, hit);
     return;
   }
@@ -31,15 +39,20 @@ void Bvh::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   const TwoBoxRay<FourFloats> box_ray(ray);
   std::uint32_t first = nodes->first;
   std::uint32_t count = 0;
+  float enter = ray.t_min;  // of the current node; only told to the counter
   for (;;) {
-    counter.step();
+    counter.node(place(first, count), enter, kUnknown);
     if (count == 0) {
       // Inner node: go on with the child that the ray enters first, let the other one wait. Which
       // one is left to the branch predictor on purpose: choosing without branches makes the load
       // of the next node wait for this test, which was measured to halve the speed.
       const gpu::BvhNode* const children = nodes + first;
-      counter.box_tests(2);
       const TwoEntries entries = box_ray.test(children, hit.t);
+      const auto place_of = [this, children](int child) {
+        return [=, this] { return place(children[child].first, children[child].count); };
+      };
+      counter.box(place_of(0), (entries.hits & 1U) != 0, entries.left);
+      counter.box(place_of(1), (entries.hits & 2U) != 0, entries.right);
       const gpu::BvhNode* next = children;
       if (entries.hits == 3) {
         if (entries.right < entries.left) {
@@ -54,24 +67,30 @@ void Bvh::trace(const Ray& ray, Hit& hit, Counter& counter) const {
       if (entries.hits != 0) {
         first = next->first;
         count = next->count;
+        enter = next == children ? entries.left : entries.right;
         continue;
       }
     } else {
-      counter.triangle_tests(1);
+      counter.triangle(triangles, first, hit);
       if (filter.test(triangles, first, hit) && AnyHit) return;
     }
     // The next waiting node that begins before the best hit, or not certainly behind it.
-    do {
+    for (;;) {
       if (waiting_count == 0) return;
       --waiting_count;
-    } while (waiting[waiting_count].enter * kNarrow > hit.t);
+      if (!(waiting[waiting_count].enter * kNarrow > hit.t)) break;
+      const Waiting& left_out = waiting[waiting_count];
+      counter.skipped(place(left_out.first, left_out.count), left_out.enter, hit.t);
+    }
     first = waiting[waiting_count].first;
     count = waiting[waiting_count].count;
+    enter = waiting[waiting_count].enter;
   }
 }
 
 template void Bvh::trace<false, NotCounting>(const Ray&, Hit&, NotCounting&) const;
 template void Bvh::trace<false, Counting>(const Ray&, Hit&, Counting&) const;
+template void Bvh::trace<false, Recording>(const Ray&, Hit&, Recording&) const;
 template void Bvh::trace<true, NotCounting>(const Ray&, Hit&, NotCounting&) const;
 
 }  // namespace encore::accel

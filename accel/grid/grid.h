@@ -44,15 +44,19 @@ class Grid final : public TracedStructure<Grid> {
  private:
   /// Marks the first entry of a triangle in entries_; cell indices need only 30 bits.
   static constexpr std::uint32_t kFirstOfTriangle = 0x80000000U;
+  /// Share of a build that is done when the entries are listed (see grid.cpp).
+  static constexpr double kListDone = 0.65;
   /// Emitting may write this many entries past the last valid one.
   static constexpr std::size_t kEntryPadding = 8;
 
   // Building, in this order; both list_… return the number of entries.
-  void choose_cells(const Bounds& bounds);
-  std::uint64_t find_ranges();
-  std::size_t list_box_entries();    // grid_build_box.cpp
-  std::size_t list_exact_entries();  // grid_build_exact.cpp
-  void insert_entries(std::size_t count);
+  void build_over(std::span<const Triangle> triangles, BuildMeter& meter);
+  Bounds find_bounds(BuildMeter& meter) const;
+  void choose_cells(const Bounds& bounds, BuildMeter& meter);
+  std::uint64_t find_ranges(BuildMeter& meter);
+  std::size_t list_box_entries(BuildMeter& meter);    // grid_build_box.cpp
+  std::size_t list_exact_entries(BuildMeter& meter);  // grid_build_exact.cpp
+  void insert_entries(std::size_t count, BuildMeter& meter);
 
   const StructureKind kind_;
   const GridSettings settings_;

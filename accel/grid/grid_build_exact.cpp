@@ -109,7 +109,7 @@ class CellLister {
 }  // namespace
 
 // grid-exact: a triangle goes into the cells that it overlaps.
-std::size_t Grid::list_exact_entries() {
+std::size_t Grid::list_exact_entries(BuildMeter& meter) {
   const float scale = normalising_scale(layout_.bounds());
   scaled_planes_.reset(layout_.all_planes().size(), mode_, allocations_);
   for (std::size_t i = 0; i < scaled_planes_.size(); ++i) {
@@ -123,8 +123,11 @@ std::size_t Grid::list_exact_entries() {
 
   CellLister lister(layout_, planes, scale);
   std::uint32_t* const entries = entries_.data();
+  const double from = meter.done();
   std::size_t n = 0;
+  std::size_t next_call = meter.watched() ? 0 : ~std::size_t{0};
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    if (n >= next_call) next_call = meter.next_call(i, triangles_.size(), n, from, kListDone);
     prefetch_ahead(triangles_, i);
     const CellRange range = ranges_[i];
     if (range.ambiguous()) {

@@ -60,6 +60,11 @@ class GridLayout {
     return axis == 0 ? 1 : axis == 1 ? size_[0] : size_[0] * size_[1];
   }
 
+  /// The coordinates of a cell of the cell array.
+  [[nodiscard]] std::array<std::uint32_t, 3> position(std::uint32_t cell) const {
+    return {cell % size_[0], cell / size_[0] % size_[1], cell / (size_[0] * size_[1])};
+  }
+
   /// The cell of a coordinate; coordinates outside the box belong to the nearest cell.
   [[nodiscard]] std::uint32_t cell_of(int axis, float x) const {
     const auto a = static_cast<std::size_t>(axis);

@@ -30,11 +30,11 @@ class CellVisitor {
 
   // Tests a cell's triangles; true if the search is over.
   bool operator()(std::uint32_t cell) {
-    counter_.step();
+    counter_.node(cell);
     const std::uint32_t first = starts_[cell];
     const std::uint32_t count = starts_[cell + 1] - first;
     if (count == 0) return false;
-    counter_.triangle_tests(count);
+    counter_.triangles(triangles_, references_ + first, count, hit_);
     const bool changed = filter_.test(triangles_, references_ + first, count, hit_);
     return AnyHit && changed;
   }
@@ -165,12 +165,18 @@ void Grid::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   if (references_.empty()) return;
   CellVisitor<AnyHit, Counter> visit(triangles_.data(), cell_starts_.data(), references_.data(),
                                      ray, hit, counter);
+  counter.cells([this](std::uint32_t cell) {
+    const auto [x, y, z] = layout_.position(cell);
+    return layout_.cell_bounds(x, y, z);
+  });
   const BoxRay box_ray(ray);
   if (!invertible(ray, box_ray)) return walk_thick(layout_, ray, visit);
 
   const Bounds bounds = layout_.bounds();
   const BoxStretch stretch = box_stretch(bounds.min, bounds.max, box_ray, ray.t_min, ray.t_max);
-  if (!stretch.hit() || stretch.enter == kInfinity) return;
+  const bool met = stretch.hit() && stretch.enter != kInfinity;
+  counter.scene_box(met, stretch.enter, stretch.leave);
+  if (!met) return;
   if (GridWalk::planes_apart(layout_, box_ray, stretch.leave)) {
     walk(GridWalk(layout_, ray, box_ray, stretch.enter), visit);
   } else {
@@ -180,6 +186,7 @@ void Grid::trace(const Ray& ray, Hit& hit, Counter& counter) const {
 
 template void Grid::trace<false, NotCounting>(const Ray&, Hit&, NotCounting&) const;
 template void Grid::trace<false, Counting>(const Ray&, Hit&, Counting&) const;
+template void Grid::trace<false, Recording>(const Ray&, Hit&, Recording&) const;
 template void Grid::trace<true, NotCounting>(const Ray&, Hit&, NotCounting&) const;
 
 }  // namespace encore::accel

@@ -19,13 +19,31 @@ void KdTree::build(std::span<const Triangle> triangles) {
     throw std::length_error("a kd-tree holds fewer than 2^30 triangles");
   }
   mark_changed();
-  triangles_ = triangles;
-  bounds_ = {};
-  for (const Triangle& triangle : triangles) bounds_.extend(scene::bounds_of(triangle));
+  BuildMeter meter(build_watch());
+  try {
+    build_over(triangles, meter);
+  } catch (...) {
+    triangles_ = {};
+    BuildMeter unwatched(nullptr);
+    build_over({}, unwatched);
+    throw;
+  }
+  meter.finish();
+}
 
-  KdBuilder builder(triangles, kd_limits(settings_, triangles.size()), mode_, memory_);
+void KdTree::build_over(std::span<const Triangle> triangles, BuildMeter& meter) {
+  triangles_ = triangles;
+  Bounds bounds;
+  meter.pass(triangles.size(), [&](std::size_t begin, std::size_t end) {
+    Bounds here = bounds;  // a copy stays in registers
+    for (std::size_t i = begin; i < end; ++i) here.extend(scene::bounds_of(triangles[i]));
+    bounds = here;
+  });
+  bounds_ = bounds;
+
+  KdBuilder builder(triangles, kd_limits(settings_, triangles.size()), mode_, memory_, meter);
   if (kind_ == StructureKind::kd_sah) {
-    KdSahSplitter splitter(settings_, triangles.size(), mode_, sah_memory_);
+    KdSahSplitter splitter(settings_, triangles.size(), mode_, sah_memory_, meter);
     builder.run(bounds_, splitter);
     if (mode_ == MemoryMode::fresh) sah_memory_.keys.release();
   } else {
@@ -95,6 +113,7 @@ void KdTree::visit(const std::function<bool(const NodeView&)>& visitor) const {
     NodeView view;
     view.bounds = current.bounds;
     view.depth = current.depth;
+    view.place = current.node;
     if (kd_tag(node) == kKdLeafTag) {
       view.leaf = true;
       view.triangles = memory_.references.span().subspan(kd_first(node), kd_count(node));

@@ -35,6 +35,8 @@ class KdTree final : public TracedStructure<KdTree> {
   [[nodiscard]] std::uint64_t build_operations() const;
 
  private:
+  void build_over(std::span<const Triangle> triangles, BuildMeter& meter);
+
   StructureKind kind_;
   KdTreeSettings settings_;
   MemoryMode mode_;

@@ -29,13 +29,18 @@ struct Best {
 
 /// Sweeps all candidates in ascending order, counting who lies on which side.
 Best sweep(const Ends& ends, const SplitCost& cost, float box_min, float box_max,
-           std::uint64_t& candidates) {
+           std::uint64_t& candidates, BuildMeter& meter) {
   Best best;
   const std::size_t count = ends.low.size();
   std::size_t begun = 0;  // extents that begin below the position
   std::size_t ended = 0;  // extents that end at or below it
   std::size_t planar = 0;
+  std::size_t unchecked = 0;
   while (ended < count) {
+    if (++unchecked == BuildMeter::kPart) {
+      meter.check();
+      unchecked = 0;
+    }
     std::uint32_t key = ends.high[ended];
     if (begun < count) key = std::min(key, ends.low[begun]);
     while (ended < count && ends.high[ended] == key) ++ended;
@@ -59,8 +64,8 @@ Best sweep(const Ends& ends, const SplitCost& cost, float box_min, float box_max
 }  // namespace
 
 KdSahSplitter::KdSahSplitter(const KdTreeSettings& settings, std::size_t triangle_count,
-                             MemoryMode mode, KdSahMemory& memory)
-    : settings_(settings), capacity_(triangle_count), memory_(memory) {
+                             MemoryMode mode, KdSahMemory& memory, BuildMeter& meter)
+    : settings_(settings), capacity_(triangle_count), memory_(memory), meter_(meter) {
   memory_.allocations = {};
   memory_.keys_sorted = 0;
   memory_.candidates_examined = 0;
@@ -85,20 +90,23 @@ KdSplit KdSahSplitter::best_on_axis(const KdTask& task, std::span<const KdRefere
   std::uint32_t* planar = high + capacity_;
   std::uint32_t* spare = planar + capacity_;
   std::size_t planar_count = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    low[i] = key_of_float(references[i].min[axis]);
-    high[i] = key_of_float(references[i].max[axis]);
-    planar[planar_count] = low[i];
-    planar_count += low[i] == high[i] ? 1 : 0;
+  for (std::size_t i = 0, end = 0; i < count;) {
+    for (end = meter_.part_end(i, count); i < end; ++i) {
+      low[i] = key_of_float(references[i].min[axis]);
+      high[i] = key_of_float(references[i].max[axis]);
+      planar[planar_count] = low[i];
+      planar_count += low[i] == high[i] ? 1 : 0;
+    }
   }
-  sort_keys(low, spare, count);
-  sort_keys(high, spare, count);
-  sort_keys(planar, spare, planar_count);
+  sort_keys(low, spare, count, &meter_);
+  sort_keys(high, spare, count, &meter_);
+  sort_keys(planar, spare, planar_count, &meter_);
   memory_.keys_sorted += 2 * count + planar_count;
 
   const SplitCost cost(task.box, axis, settings_);
-  const Best best = sweep({{low, count}, {high, count}, {planar, planar_count}}, cost,
-                          task.box.min[axis], task.box.max[axis], memory_.candidates_examined);
+  const Best best =
+      sweep({{low, count}, {high, count}, {planar, planar_count}}, cost, task.box.min[axis],
+            task.box.max[axis], memory_.candidates_examined, meter_);
   if (!best.found) return {};
   return {.axis = axis,
           .position = best.position,

@@ -26,7 +26,7 @@ class KdSahSplitter final : public KdSplitter {
  public:
   /// Asks for all its memory here. `triangle_count`: the most references a node may have.
   KdSahSplitter(const KdTreeSettings& settings, std::size_t triangle_count, MemoryMode mode,
-                KdSahMemory& memory);
+                KdSahMemory& memory, BuildMeter& meter);
 
   KdSplit choose(const KdTask& task, std::span<const KdReference> references) override;
 
@@ -36,6 +36,7 @@ class KdSahSplitter final : public KdSplitter {
   KdTreeSettings settings_;
   std::size_t capacity_;
   KdSahMemory& memory_;
+  BuildMeter& meter_;
 };
 
 }  // namespace encore::accel

@@ -51,6 +51,9 @@ void KdBuilder::run(const Bounds& bounds, KdSplitter& splitter) {
   std::size_t waiting_count = 0;
   KdTask task{.box = bounds, .count = static_cast<std::uint32_t>(triangles_.size())};
   for (;;) {
+    if (task.count >= BuildMeter::kNode && meter_.watched()) {
+      report(task, {waiting.data(), waiting_count});
+    }
     const std::span<const KdReference> references{references_in_work(task.count), task.count};
     const KdSplit split = must_be_leaf(task) ? KdSplit{} : splitter.choose(task, references);
     make_room(memory_.nodes, node_count_ + 1, memory_.allocations);
@@ -94,10 +97,20 @@ void KdBuilder::start() {
   memory_.references.reset(2 * count + 64, mode_, memory_.allocations);
   memory_.left.reset(count, mode_, memory_.allocations);
   memory_.right.reset(count + count / 2, mode_, memory_.allocations);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Bounds bounds = scene::bounds_of(triangles_[i]);
-    memory_.left[i] = {bounds.min, static_cast<std::uint32_t>(i), bounds.max, 0};
-  }
+  meter_.pass(count, [this](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Bounds bounds = scene::bounds_of(triangles_[i]);
+      memory_.left[i] = {bounds.min, static_cast<std::uint32_t>(i), bounds.max, 0};
+    }
+  });
+}
+
+// What is done is what the root was to take and no node that waits will. (Where splits duplicate
+// many references the nodes begin with more than the root had, and progress starts late.)
+void KdBuilder::report(const KdTask& task, std::span<const KdTask> waiting) {
+  double left = BuildMeter::left(task.count);
+  for (const KdTask& other : waiting) left += BuildMeter::left(other.count);
+  meter_.report(1.0 - left / BuildMeter::left(static_cast<std::uint32_t>(triangles_.size())));
 }
 
 KdReference* KdBuilder::references_in_work(std::uint32_t count) {
@@ -132,21 +145,23 @@ KdBuilder::Counts KdBuilder::partition(const KdTask& task, const KdSplit& split)
   KdReference* upper = memory_.right.data() + upper_base;
   const int axis = split.axis;
   Counts counts{0, 0};
-  for (std::uint32_t i = 0; i < task.count; ++i) {
-    const KdReference reference = source[i];
-    const bool below = reference.min[axis] < split.position;
-    const bool above = reference.max[axis] > split.position;
-    if (below && above) {
-      partition_straddler(reference, task, split, lower + counts.lower, upper + counts.upper,
-                          counts);
-      continue;
+  for (std::uint32_t i = 0, end = 0; i < task.count;) {
+    for (end = meter_.part_end(i, task.count); i < end; ++i) {
+      const KdReference reference = source[i];
+      const bool below = reference.min[axis] < split.position;
+      const bool above = reference.max[axis] > split.position;
+      if (below && above) {
+        partition_straddler(reference, task, split, lower + counts.lower, upper + counts.upper,
+                            counts);
+        continue;
+      }
+      // Write to both ends, count on one: no branch to mispredict.
+      const bool to_lower = below || (!above && split.planar_below);
+      lower[counts.lower] = reference;
+      upper[counts.upper] = reference;
+      counts.lower += to_lower ? 1 : 0;
+      counts.upper += to_lower ? 0 : 1;
     }
-    // Write to both ends, count on one: no branch to mispredict.
-    const bool to_lower = below || (!above && split.planar_below);
-    lower[counts.lower] = reference;
-    upper[counts.upper] = reference;
-    counts.lower += to_lower ? 1 : 0;
-    counts.upper += to_lower ? 0 : 1;
   }
   right_count_ = upper_base + counts.upper;
   memory_.references_classified += task.count;

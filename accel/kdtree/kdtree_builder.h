@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/array.h"
+#include "accel/build_watch.h"
 #include "accel/settings.h"
 #include "scene/bounds.h"
 #include "scene/triangle.h"
@@ -95,10 +96,11 @@ struct KdBuildMemory {
 class KdBuilder {
  public:
   KdBuilder(std::span<const scene::Triangle> triangles, const KdLimits& limits, MemoryMode mode,
-            KdBuildMemory& memory)
-      : triangles_(triangles), limits_(limits), mode_(mode), memory_(memory) {}
+            KdBuildMemory& memory, BuildMeter& meter)
+      : triangles_(triangles), limits_(limits), mode_(mode), memory_(memory), meter_(meter) {}
 
-  /// `bounds`: of all triangles. Fills memory.nodes and memory.references.
+  /// `bounds`: of all triangles. Fills memory.nodes and memory.references. Throws BuildCancelled,
+  /// after which only another run makes sense of the memory.
   void run(const scene::Bounds& bounds, KdSplitter& splitter);
 
  private:
@@ -110,6 +112,7 @@ class KdBuilder {
   void start();
   [[nodiscard]] bool must_be_leaf(const KdTask& task) const;
   void add_leaf(std::span<const KdReference> references);
+  void report(const KdTask& task, std::span<const KdTask> waiting);
   Counts partition(const KdTask& task, const KdSplit& split);
   void partition_straddler(const KdReference& reference, const KdTask& task, const KdSplit& split,
                            KdReference* lower_end, KdReference* upper_end, Counts& counts);
@@ -121,6 +124,7 @@ class KdBuilder {
   KdLimits limits_;
   MemoryMode mode_;
   KdBuildMemory& memory_;
+  BuildMeter& meter_;
   std::size_t node_count_ = 0;
   std::size_t leaf_references_ = 0;
   std::size_t right_count_ = 0;

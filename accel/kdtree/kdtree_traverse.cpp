@@ -29,6 +29,7 @@ void KdTree::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   const BoxRay box_ray(ray);
   if (triangles_.empty()) return;
   const BoxStretch stretch = box_stretch(bounds_.min, bounds_.max, box_ray, ray.t_min, hit.t);
+  counter.scene_box(stretch.hit(), stretch.enter, stretch.leave);
   if (!stretch.hit()) return;
 
   const TriangleFilter filter(ray);
@@ -43,7 +44,7 @@ void KdTree::trace(const Ray& ray, Hit& hit, Counter& counter) const {
     // Go down to a leaf, near side first.
     gpu::KdNode node = nodes[index];
     std::uint32_t axis = kd_tag(node);
-    counter.step();
+    counter.node(index, enter, leave);
     while (axis != kKdLeafTag) {
       const float t = (kd_position(node) - box_ray.origin[static_cast<int>(axis)]) *
                       box_ray.inverse[static_cast<int>(axis)];
@@ -51,29 +52,35 @@ void KdTree::trace(const Ray& ray, Hit& hit, Counter& counter) const {
       const std::uint32_t near = negative ? kd_upper(node) : index + 1;
       const std::uint32_t far = negative ? index + 1 : kd_upper(node);
       if (t * kNarrow > leave) {
+        counter.plane(index, t, PlaneSides::near);
         index = near;
       } else if (t * kWiden < enter) {
+        counter.plane(index, t, PlaneSides::far);
         index = far;
       } else {
+        counter.plane(index, t, PlaneSides::both);
         waiting[waiting_count++] = {far, t > enter ? t : enter, leave};
         leave = t < leave ? t : leave;
         index = near;
       }
       node = nodes[index];
       axis = kd_tag(node);
-      counter.step();
+      counter.node(index, enter, leave);
     }
 
     const std::uint32_t count = kd_count(node);
-    counter.triangle_tests(count);
-    if (filter.test(triangles_.data(), references + kd_first(node), count, hit) && AnyHit) return;
+    const std::uint32_t* const leaf = references + kd_first(node);
+    counter.triangles(triangles_.data(), leaf, count, hit);
+    if (filter.test(triangles_.data(), leaf, count, hit) && AnyHit) return;
 
     // Take the next node that does not begin beyond the best hit. At equal distance it is taken:
     // a triangle of lower index may lie in it.
-    do {
+    for (;;) {
       if (waiting_count == 0) return;
       --waiting_count;
-    } while (waiting[waiting_count].enter * kNarrow > hit.t);
+      if (!(waiting[waiting_count].enter * kNarrow > hit.t)) break;
+      counter.skipped(waiting[waiting_count].node, waiting[waiting_count].enter, hit.t);
+    }
     index = waiting[waiting_count].node;
     enter = waiting[waiting_count].enter;
     leave = waiting[waiting_count].leave;
@@ -82,6 +89,7 @@ void KdTree::trace(const Ray& ray, Hit& hit, Counter& counter) const {
 
 template void KdTree::trace<false, NotCounting>(const Ray&, Hit&, NotCounting&) const;
 template void KdTree::trace<false, Counting>(const Ray&, Hit&, Counting&) const;
+template void KdTree::trace<false, Recording>(const Ray&, Hit&, Recording&) const;
 template void KdTree::trace<true, NotCounting>(const Ray&, Hit&, NotCounting&) const;
 
 }  // namespace encore::accel

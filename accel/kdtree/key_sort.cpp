@@ -14,16 +14,23 @@ constexpr std::uint32_t kDigitValues = 256;
 
 }  // namespace
 
-void sort_keys(std::uint32_t* keys, std::uint32_t* spare, std::size_t count) {
+void sort_keys(std::uint32_t* keys, std::uint32_t* spare, std::size_t count, BuildMeter* meter) {
   if (count < kByDigits) {
     std::sort(keys, keys + count);
     return;
   }
 
+  BuildMeter unwatched(nullptr);
+  if (meter == nullptr) meter = &unwatched;
+
   // Count all digits in one reading.
   std::array<std::array<std::uint32_t, kDigitValues>, kDigits> counts{};
-  for (std::size_t i = 0; i < count; ++i) {
-    for (int digit = 0; digit < kDigits; ++digit) ++counts[digit][keys[i] >> (8 * digit) & 0xFFU];
+  for (std::size_t i = 0, end = 0; i < count;) {
+    for (end = meter->part_end(i, count); i < end; ++i) {
+      for (int digit = 0; digit < kDigits; ++digit) {
+        ++counts[digit][keys[i] >> (8 * digit) & 0xFFU];
+      }
+    }
   }
 
   std::uint32_t* from = keys;
@@ -33,7 +40,11 @@ void sort_keys(std::uint32_t* keys, std::uint32_t* spare, std::size_t count) {
     if (next[from[0] >> (8 * digit) & 0xFFU] == count) continue;
     std::uint32_t sum = 0;
     for (std::uint32_t& value : next) sum += std::exchange(value, sum);
-    for (std::size_t i = 0; i < count; ++i) to[next[from[i] >> (8 * digit) & 0xFFU]++] = from[i];
+    for (std::size_t i = 0, end = 0; i < count;) {
+      for (end = meter->part_end(i, count); i < end; ++i) {
+        to[next[from[i] >> (8 * digit) & 0xFFU]++] = from[i];
+      }
+    }
     std::swap(from, to);
   }
   if (from != keys) std::copy(from, from + count, keys);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "accel/build_watch.h"
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +20,9 @@ inline float float_of_key(std::uint32_t key) {
 }
 
 /// Sorts keys ascending. `spare` has room for `count` more and is overwritten. Long lists are
-/// sorted by digits (least significant first, digits that all keys share skipped) in O(count).
-void sort_keys(std::uint32_t* keys, std::uint32_t* spare, std::size_t count);
+/// sorted by digits (least significant first, digits that all keys share skipped) in O(count). A
+/// meter may end the work by BuildCancelled, which leaves the keys in disorder.
+void sort_keys(std::uint32_t* keys, std::uint32_t* spare, std::size_t count,
+               BuildMeter* meter = nullptr);
 
 }  // namespace encore::accel

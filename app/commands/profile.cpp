@@ -17,9 +17,11 @@ void add_profile_options(CLI::App& command, ProfileOptions& options,
   add_scene_options(command, options, true);
   add_structure_options(command, options, true);
   command
-      .add_option("--policy,-p", options.policies,
-                  "What a moving scene does to the structure: rebuild, refit, static; several "
-                  "separated by commas; default: the scene's own, else rebuild")
+      .add_option(
+          "--policy,-p", options.policies,
+          "What a moving scene does to the structure: rebuild, refit, auto (refit until it has "
+          "decayed), static; several separated by commas; default: the scene's own, else "
+          "rebuild")
       ->delimiter(',')
       ->allow_extra_args(false);
   command

@@ -13,10 +13,12 @@ TEST(Settings, NamesRoundTrip) {
   for (const StructureKind kind : all_structure_kinds()) {
     EXPECT_EQ(parse_structure_kind(to_string(kind)), kind);
   }
-  for (const Policy policy : {Policy::rebuild, Policy::refit, Policy::fixed}) {
+  EXPECT_EQ(all_policies().size(), 4U);
+  for (const Policy policy : all_policies()) {
     EXPECT_EQ(parse_policy(to_string(policy)), policy);
   }
   EXPECT_FALSE(parse_structure_kind("grid").has_value());
+  EXPECT_EQ(parse_policy("auto"), Policy::automatic);
   EXPECT_FALSE(parse_policy("").has_value());
 }
 
@@ -52,6 +54,17 @@ TEST(Settings, ValuesArriveAndAreBounded) {
   EXPECT_EQ(apply_setting(spec, "kd.leaf_triangles", "4"), "");
   EXPECT_NE(apply_setting(spec, "kd.leaf_triangles", "four"), "");
   EXPECT_NE(apply_setting(spec, "grid.cell_count", "4").find("unknown"), std::string::npos);
+}
+
+TEST(Settings, AutoRebuildsAtAMultipleAboveOne) {
+  StructureSpec spec = default_spec(StructureKind::bvh_median);
+  EXPECT_EQ(std::get<BvhSettings>(spec.settings).rebuild_at, 1.25F);
+  EXPECT_EQ(apply_setting(spec, "bvh.rebuild_at", "1.5"), "");
+  EXPECT_EQ(std::get<BvhSettings>(spec.settings).rebuild_at, 1.5F);
+  for (const char* wrong : {"1", "0.9", "nan", "-2"}) {
+    EXPECT_NE(apply_setting(spec, "bvh.rebuild_at", wrong), "") << wrong;
+  }
+  EXPECT_EQ(std::get<BvhSettings>(spec.settings).rebuild_at, 1.5F);
 }
 
 TEST(Settings, TheDocumentationNamesEveryKey) {

@@ -231,14 +231,19 @@ TEST(ProfileCommand, MeasuresAMovingSceneUnderEveryPolicy) {
   app.parse(
       "profile toys --quiet --source none --seconds 0.01 --size 16 --structure bvh-median,grid-box "
       "--test "
-      "dynamic --policy rebuild,refit,static --out " +
+      "dynamic --policy rebuild,refit,auto,static --out " +
       out);
   testing::internal::GetCapturedStdout();
   EXPECT_EQ(code, ExitCode::ok);
   const energy::Session session = energy::read_session(out);
-  ASSERT_EQ(session.summaries.size(), 3U + 2U) << "a grid's refit is its rebuild";
+  ASSERT_EQ(session.summaries.size(), 4U + 2U) << "a grid's refit is its rebuild";
   for (const auto& row : session.summaries) {
     const std::string& policy = row.configuration[4].value;
+    if (policy == "auto") {
+      EXPECT_EQ(row.phase_counts[energy::Phase::build] + row.phase_counts[energy::Phase::update],
+                row.operations);
+      continue;
+    }
     EXPECT_EQ(row.phase_counts[energy::Phase::build], policy == "rebuild" ? row.operations : 0);
     EXPECT_EQ(row.phase_counts[energy::Phase::update], policy == "refit" ? row.operations : 0);
   }

@@ -1,0 +1,42 @@
+#include "accel/update_policy.h"
+
+namespace encore::accel {
+
+bool updates(Policy policy, const AccelerationStructure& structure) {
+  switch (policy) {
+    case Policy::refit:
+    case Policy::automatic:
+      return structure.can_refit();
+    case Policy::rebuild:
+    case Policy::fixed:
+      return false;
+  }
+  return false;
+}
+
+UpdateAction decide(Policy policy, const AccelerationStructure& structure,
+                    scene::TriangleChange change) {
+  if (change == scene::TriangleChange::none || policy == Policy::fixed) return UpdateAction::none;
+  if (change == scene::TriangleChange::topology || !updates(policy, structure)) {
+    return UpdateAction::build;
+  }
+  const bool spent = policy == Policy::automatic && structure.decayed();
+  return spent ? UpdateAction::build : UpdateAction::update;
+}
+
+void carry_out(UpdateAction action, Policy policy, AccelerationStructure& structure,
+               std::span<const Triangle> triangles) {
+  switch (action) {
+    case UpdateAction::none:
+      return;
+    case UpdateAction::build:
+      structure.build(triangles);
+      break;
+    case UpdateAction::update:
+      structure.update(triangles);
+      break;
+  }
+  if (policy == Policy::automatic) structure.assess();
+}
+
+}  // namespace encore::accel
