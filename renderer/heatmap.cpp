@@ -1,8 +1,6 @@
 #include "renderer/heatmap.h"
 
-#include "scene/portable_math.h"
-
-#include <glm/common.hpp>
+#include "renderer/heatmap_palette.h"
 
 #include <algorithm>
 #include <array>
@@ -22,50 +20,6 @@ constexpr std::array<std::pair<HeatmapQuantity, std::string_view>, 3> kNames = {
     {HeatmapQuantity::box_tests, "boxes"},
 }};
 
-std::uint32_t cost_of(const accel::TraceCounters& counters, HeatmapQuantity quantity) {
-  switch (quantity) {
-    case HeatmapQuantity::steps:
-      return counters.steps;
-    case HeatmapQuantity::triangle_tests:
-      return counters.triangle_tests;
-    case HeatmapQuantity::box_tests:
-      return counters.box_tests;
-  }
-  return 0;
-}
-
-/// Linear sRGB of a colour in OKLab (Ottosson 2020).
-glm::dvec3 linear_from_oklab(double lightness, double a, double b) {
-  const auto cube = [](double x) { return x * x * x; };
-  const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b);
-  const double m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b);
-  const double s = cube(lightness - 0.0894841775 * a - 1.2914855480 * b);
-  return {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
-          -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-          -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
-}
-
-constexpr std::size_t kColors = 256;
-
-std::array<glm::vec3, kColors> make_palette() {
-  // The chroma is the largest with which the whole helix stays inside what a screen can show.
-  constexpr double kChroma = 0.092;
-  constexpr double kDark = 0.22;
-  constexpr double kLight = 0.93;
-  constexpr double kViolet = 305.0;
-  constexpr double kYellow = 100.0;
-  std::array<glm::vec3, kColors> colors{};
-  for (std::size_t i = 0; i < kColors; ++i) {
-    const double t = static_cast<double>(i) / (kColors - 1);
-    const double hue = kViolet + (kYellow - kViolet) * t;
-    const glm::dvec3 color =
-        linear_from_oklab(kDark + (kLight - kDark) * t, kChroma * scene::portable_cos_degrees(hue),
-                          kChroma * scene::portable_sin_degrees(hue));
-    colors[i] = glm::vec3(glm::clamp(color, 0.0, 1.0));
-  }
-  return colors;
-}
-
 /// The value of a rank in [0, 1) once everything is in order up to there.
 std::uint32_t nearest_rank(std::vector<std::uint32_t>& values, double share) {
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
@@ -81,7 +35,7 @@ std::string_view to_string(HeatmapQuantity quantity) {
   for (const auto& [value, name] : kNames) {
     if (value == quantity) return name;
   }
-  return {};
+  return "energy";
 }
 
 std::optional<HeatmapQuantity> parse_heatmap_quantity(std::string_view name) {
@@ -89,6 +43,20 @@ std::optional<HeatmapQuantity> parse_heatmap_quantity(std::string_view name) {
     if (known == name) return value;
   }
   return std::nullopt;
+}
+
+std::uint32_t cost_of(const accel::TraceCounters& counters, HeatmapQuantity quantity) {
+  switch (quantity) {
+    case HeatmapQuantity::steps:
+      return counters.steps;
+    case HeatmapQuantity::triangle_tests:
+      return counters.triangle_tests;
+    case HeatmapQuantity::box_tests:
+      return counters.box_tests;
+    case HeatmapQuantity::energy:
+      break;
+  }
+  throw std::invalid_argument("energy is not counted; it needs what steps and tests cost");
 }
 
 CostStatistics cost_statistics(std::span<const accel::TraceCounters> counters,
@@ -112,10 +80,7 @@ CostStatistics cost_statistics(std::span<const accel::TraceCounters> counters,
 }
 
 glm::vec3 palette_color(double value) {
-  static const std::array<glm::vec3, kColors> kPalette = make_palette();
-  if (!(value > 0.0)) return kPalette.front();
-  const double clamped = std::min(value, 1.0);
-  return kPalette[static_cast<std::size_t>(clamped * (kColors - 1) + 0.5)];
+  return palette_color(Palette::helix, value);
 }
 
 CostStatistics draw_heatmap(std::span<const accel::TraceCounters> counters,

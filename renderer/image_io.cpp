@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <fstream>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -33,21 +34,14 @@ std::array<float, 255> make_thresholds() {
   return thresholds;
 }
 
-std::vector<unsigned char> encode_png(const Image& image) {
-  std::vector<unsigned char> codes;
-  codes.reserve(image.pixels.size() * 3);
-  for (const glm::vec3& pixel : image.pixels) {
-    for (int channel = 0; channel < 3; ++channel) codes.push_back(to_srgb8(pixel[channel]));
-  }
+std::vector<unsigned char> encode_png(std::span<const std::uint8_t> codes, int width, int height) {
   std::vector<unsigned char> png;
   const auto append = [](void* context, void* data, int size) {
     const auto* bytes = static_cast<const unsigned char*>(data);
     auto* target = static_cast<std::vector<unsigned char>*>(context);
     target->insert(target->end(), bytes, bytes + size);
   };
-  const int stride = image.width * 3;
-  if (stbi_write_png_to_func(append, &png, image.width, image.height, 3, codes.data(), stride) ==
-      0) {
+  if (stbi_write_png_to_func(append, &png, width, height, 3, codes.data(), width * 3) == 0) {
     throw std::runtime_error("not enough memory to compress the picture");
   }
   return png;
@@ -81,10 +75,22 @@ std::uint8_t to_srgb8(float linear) {
 }
 
 void write_png(const Image& image, const fs::path& path) {
-  if (image.width <= 0 || image.height <= 0) {
+  std::vector<std::uint8_t> codes;
+  codes.reserve(image.pixels.size() * 3);
+  for (const glm::vec3& pixel : image.pixels) {
+    for (int channel = 0; channel < 3; ++channel) codes.push_back(to_srgb8(pixel[channel]));
+  }
+  write_png(codes, image.width, image.height, path);
+}
+
+void write_png(std::span<const std::uint8_t> codes, int width, int height, const fs::path& path) {
+  if (width <= 0 || height <= 0) {
     throw std::invalid_argument("a picture needs at least one pixel each way");
   }
-  const std::vector<unsigned char> png = encode_png(image);
+  if (codes.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3) {
+    throw std::invalid_argument("a picture has three bytes a pixel");
+  }
+  const std::vector<unsigned char> png = encode_png(codes, width, height);
 
   std::error_code error;
   const fs::file_status status = fs::status(path, error);

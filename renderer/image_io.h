@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 
 namespace encore::renderer {
 
@@ -17,5 +18,8 @@ std::uint8_t to_srgb8(float linear);
 /// its letters. Throws std::runtime_error ("path: what failed: why") if the folder is missing or
 /// cannot be written to, or the disk is full; std::invalid_argument for an image without pixels.
 void write_png(const Image& image, const std::filesystem::path& path);
+/// Likewise of sRGB codes, three bytes a pixel, rows from the top.
+void write_png(std::span<const std::uint8_t> codes, int width, int height,
+               const std::filesystem::path& path);
 
 }  // namespace encore::renderer

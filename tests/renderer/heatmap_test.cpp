@@ -1,5 +1,7 @@
 #include "renderer/heatmap.h"
 
+#include "renderer/heatmap_palette.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,6 +53,47 @@ TEST(Heatmap, ThePaletteClamps) {
   EXPECT_EQ(palette_color(-1.0), palette_color(0.0));
   EXPECT_EQ(palette_color(std::numeric_limits<double>::quiet_NaN()), palette_color(0.0));
   EXPECT_EQ(palette_color(7.0), palette_color(1.0));
+}
+
+TEST(HeatmapPalette, EveryPaletteHasItsNameAndShownColours) {
+  for (const renderer::Palette palette : renderer::kPalettes) {
+    EXPECT_EQ(renderer::parse_palette(renderer::to_string(palette)), palette);
+    const auto colors = renderer::palette_colors(palette);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_GE(colors[i][c], 0.0F);
+        EXPECT_LE(colors[i][c], 1.0F);
+      }
+      EXPECT_EQ(renderer::palette_codes(palette)[i], renderer::rgba8_of(colors[i]));
+    }
+    // No two neighbours are far apart: a step is never a border.
+    for (std::size_t i = 1; i < colors.size(); ++i) {
+      const glm::dvec3 d = oklab(colors[i]) - oklab(colors[i - 1]);
+      EXPECT_LT(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), 0.03)
+          << renderer::to_string(palette) << ' ' << i;
+    }
+  }
+  EXPECT_FALSE(renderer::parse_palette("plaid").has_value());
+  EXPECT_EQ(renderer::palette_color(renderer::Palette::helix, 0.3), palette_color(0.3));
+}
+
+TEST(HeatmapPalette, GreyIsEvenAndWithoutColour) {
+  const auto colors = renderer::palette_colors(renderer::Palette::grey);
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const glm::dvec3 lab = oklab(colors[i]);
+    EXPECT_NEAR(lab.x, static_cast<double>(i) / 255.0, 1e-4);
+    EXPECT_LT(std::hypot(lab.y, lab.z), 1e-4);
+  }
+}
+
+TEST(HeatmapPalette, DivergingIsLightestInTheMiddleAndAlikeOnBothSides) {
+  const auto colors = renderer::palette_colors(renderer::Palette::diverging);
+  for (std::size_t i = 1; i <= 127; ++i) {
+    EXPECT_GT(oklab(colors[i]).x, oklab(colors[i - 1]).x);
+    EXPECT_NEAR(oklab(colors[i]).x, oklab(colors[255 - i]).x, 1e-4);
+  }
+  EXPECT_GT(colors[0].b, 2.0F * colors[0].r);
+  EXPECT_GT(colors[255].r, 2.0F * colors[255].b);
 }
 
 TEST(Heatmap, StatisticsAreThoseOfTheChosenQuantity) {
