@@ -1,11 +1,11 @@
 #include "app/profile_folder.h"
 
 #include "app/exit_code.h"
+#include "app/xdg_folders.h"
 #include "energy/session.h"
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <ctime>
 
 namespace encore::app {
@@ -14,12 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path data_home() {
-  // The XDG rules: a relative path is as good as none.
-  if (const char* xdg = std::getenv("XDG_DATA_HOME"); xdg != nullptr && xdg[0] == '/') return xdg;
-  if (const char* home = std::getenv("HOME"); home != nullptr && home[0] == '/') {
-    return fs::path(home) / ".local" / "share";
-  }
+fs::path sessions_home() {
+  if (const auto home = data_home()) return *home / "encore" / "sessions";
   throw UsageError("there is no home folder to keep sessions in; name one with --out");
 }
 
@@ -72,7 +68,7 @@ fs::path make_session_folder(const std::string& wanted, const std::string& start
                              const std::string& scene) {
   if (!wanted.empty()) return wanted_folder(wanted);
 
-  const fs::path parent = data_home() / "encore" / "sessions";
+  const fs::path parent = sessions_home();
   std::error_code error;
   fs::create_directories(parent, error);
   if (error) throw cannot_make(parent, error);

@@ -8,6 +8,8 @@ find_package(TBB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+find_package(glfw3 REQUIRED)
 
 find_path(ENCORE_GLM_DIR glm/glm.hpp REQUIRED)
 find_path(ENCORE_CLI11_DIR CLI/CLI.hpp REQUIRED)

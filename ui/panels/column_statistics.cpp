@@ -1,0 +1,248 @@
+#include "accel/stats.h"
+#include "ui/panels/column_parts.h"
+#include "ui/panels/pane_parts.h"
+#include "ui/panels/shell_parts.h"
+#include "ui/plot/value_text.h"
+#include "ui/style.h"
+#include "ui/widget_map.h"
+#include "ui/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace encore::ui {
+
+namespace {
+
+using Value = std::optional<double>;
+
+/// One row of the table: what is shown of a pane, nothing where it means nothing there.
+struct Row {
+  const char* name;
+  const char* label;
+  const char* tip;
+  std::function<Value(const PaneView&)> value;
+  std::function<std::string(double)> text;
+};
+
+std::string whole_text(double value) {
+  return count_text(static_cast<std::uint64_t>(value));
+}
+
+std::string real_text(double value) {
+  return fmt::format("{:.4g}", value);
+}
+
+std::string memory_text(double value) {
+  return bytes_text(static_cast<std::uint64_t>(value));
+}
+
+bool is_grid(const PaneView& pane) {
+  return pane.stats->grid_size[0] > 0;
+}
+
+bool is_tree(const PaneView& pane) {
+  return !is_grid(pane) && pane.stats->nodes > 0;
+}
+
+/// A field of BuildStats.
+template <class Field>
+std::function<Value(const PaneView&)> field(Field accel::BuildStats::*member) {
+  return [member](const PaneView& pane) -> Value {
+    return static_cast<double>((*pane.stats).*member);
+  };
+}
+
+template <class Field>
+std::function<Value(const PaneView&)> tree_field(Field accel::BuildStats::*member) {
+  return [member](const PaneView& pane) -> Value {
+    if (!is_tree(pane)) return std::nullopt;
+    return static_cast<double>((*pane.stats).*member);
+  };
+}
+
+std::vector<Row> build_rows() {
+  using Stats = accel::BuildStats;
+  return {
+      {"triangles", "triangles", "Triangles that the structure was built over.",
+       field(&Stats::triangles), whole_text},
+      {"allocations", "allocations",
+       "Requests to the system's allocator by the last build or update (the thesis' MC). A build "
+       "that reuses a pool has few.",
+       field(&Stats::allocations), whole_text},
+      {"allocated", "bytes allocated",
+       "Bytes of those requests (the thesis' MS); 1 KiB = 1024 bytes.",
+       field(&Stats::allocated_bytes), memory_text},
+      {"triangle_box_tests", "triangle-box tests",
+       "Exact tests of whether a triangle overlaps a box, by the last build. Structures that sort "
+       "by boxes alone do none.",
+       [](const PaneView& pane) -> Value {
+         const auto tests = pane.stats->triangle_box_tests;
+         return tests > 0 ? Value(static_cast<double>(tests)) : std::nullopt;
+       },
+       whole_text},
+  };
+}
+
+std::vector<Row> shape_rows() {
+  using Stats = accel::BuildStats;
+  return {
+      {"nodes", "nodes", "Inner nodes and leaves of a tree.", tree_field(&Stats::nodes),
+       whole_text},
+      {"cells", "cells", "Cells of the grid, the empty ones too: x times y times z.",
+       [](const PaneView& pane) -> Value {
+         if (!is_grid(pane)) return std::nullopt;
+         const auto& size = pane.stats->grid_size;
+         return double(size[0]) * double(size[1]) * double(size[2]);
+       },
+       whole_text},
+      {"leaves", "leaves", "Leaves of a tree; of a grid the cells that hold a triangle.",
+       field(&Stats::leaves), whole_text},
+      {"empty_leaves", "empty leaves", "Leaves that hold nothing: rays pass them at once.",
+       tree_field(&Stats::empty_leaves), whole_text},
+      {"depth", "depth", "Levels below the root, which alone has depth 0.",
+       tree_field(&Stats::max_depth), whole_text},
+      {"references", "references",
+       "Entries of triangles in leaves. A triangle that lies in several leaves has several.",
+       field(&Stats::references), whole_text},
+      {"duplication", "duplication", "References over triangles: 1 where none is held twice.",
+       [](const PaneView& pane) -> Value {
+         if (pane.stats->triangles == 0) return std::nullopt;
+         return pane.stats->duplication();
+       },
+       real_text},
+      {"per_leaf", "references a leaf", "Mean over the leaves or cells that hold any.",
+       [](const PaneView& pane) -> Value {
+         if (pane.stats->references == 0) return std::nullopt;
+         return pane.stats->references_per_leaf();
+       },
+       real_text},
+      {"largest_leaf", "largest leaf", "Most references in one leaf or cell.",
+       field(&Stats::largest_leaf), whole_text},
+      {"bytes", "memory",
+       "What tracing needs: nodes, references, cells, without the triangles; 1 KiB = 1024 bytes.",
+       field(&Stats::bytes), memory_text},
+      {"sah_cost", "SAH cost",
+       "Expected cost of a random ray that hits the scene's box, in units of one triangle test; a "
+       "step costs 1 (surface area heuristic). Lower is better.",
+       field(&Stats::sah_cost), real_text},
+      {"sah_decay", "SAH decay",
+       "SAH cost now over that of the last build: above 1, refitting has made rays dearer.",
+       [](const PaneView& pane) { return pane.sah_decay; }, real_text},
+      {"pane_memory", "memory of the pane",
+       "Triangles, structure and pictures of this pane together; 1 KiB = 1024 bytes.",
+       [](const PaneView& pane) -> Value {
+         if (pane.memory_bytes == 0) return std::nullopt;
+         return static_cast<double>(pane.memory_bytes);
+       },
+       memory_text},
+  };
+}
+
+/// The other pane, if it has another structure to compare with.
+const PaneView* compared_pane(const ColumnContext& context) {
+  const std::size_t mine = context.state.inspected_pane;
+  const auto& panes = context.state.settings.panes;
+  const PaneView& other = context.view.panes.at(1 - mine);
+  if (!other.stats || panes.at(1 - mine).device == PaneDevice::off) return nullptr;
+  const bool differs = !(panes.at(mine).structure == panes.at(1 - mine).structure) ||
+                       panes.at(mine).policy != panes.at(1 - mine).policy;
+  return differs ? &other : nullptr;
+}
+
+/// "+12.5 %", or what is clearer where they are far apart: "107 times".
+std::string percent_text(double mine, double other) {
+  if (mine == other) return "same";
+  if (mine == 0.0) return "";
+  const double percent = (other - mine) / mine * 100.0;
+  if (percent >= 1000.0) return fmt::format("{:.3g} times", other / mine);
+  return fmt::format("{:+.1f} %", percent);
+}
+
+void draw_cell(const Row& row, const char* column, const Value& value) {
+  ImGui::TableNextColumn();
+  const std::string text = value ? row.text(*value) : "–";
+  const float room = ImGui::GetContentRegionAvail().x;
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
+  if (room > width) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
+  ImGui::TextUnformatted(text.c_str());
+  note_widget(fmt::format("statistics.{}.{}", row.name, column), text);
+}
+
+void draw_row(const Row& row, const PaneView& mine, const PaneView* other) {
+  const Value value = row.value(mine);
+  const Value compared = other != nullptr ? row.value(*other) : std::nullopt;
+  if (!value && !compared) return;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(row.label);
+  note_widget(std::string("statistics.") + row.name);
+  tooltip(row.tip);
+  draw_cell(row, "value", value);
+  if (other == nullptr) return;
+  draw_cell(row, "other", compared);
+  ImGui::TableNextColumn();
+  if (!value || !compared) return;
+  const std::string percent = percent_text(*value, *compared);
+  ImGui::TextUnformatted(percent.c_str());
+  note_widget(fmt::format("statistics.{}.difference", row.name), percent);
+  tooltip("Of the other pane's against this one's.");
+}
+
+void draw_table(const ColumnContext& context, const char* id, const std::vector<Row>& rows,
+                const PaneView* other) {
+  const int columns = other != nullptr ? 4 : 2;
+  if (!ImGui::BeginTable(id, columns, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+    return;
+  }
+  const float em = ImGui::GetFontSize();
+  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, 1.4F);
+  ImGui::TableSetupColumn("mine", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  if (other != nullptr) {
+    ImGui::TableSetupColumn("other", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+    ImGui::TableSetupColumn("difference", ImGuiTableColumnFlags_WidthFixed, em * 4.8F);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    for (const std::size_t pane :
+         {context.state.inspected_pane, 1 - context.state.inspected_pane}) {
+      ImGui::TableNextColumn();
+      const PaneSettings& settings = context.state.settings.panes.at(pane);
+      const float room = ImGui::GetContentRegionAvail().x;
+      colored_text(device_color(settings.device), device_title(settings.device));
+      colored_text(device_color(settings.device),
+                   fitted(accel::to_string(settings.structure.kind), room));
+    }
+    ImGui::TableNextColumn();
+  }
+  for (const Row& row : rows) draw_row(row, context.shown(), other);
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void draw_statistics(const ColumnContext& context) {
+  const PaneView& shown = context.shown();
+  if (!shown.stats) {
+    return draw_missing(context, "statistics.none",
+                        shown.problem.empty()
+                            ? "There is no structure yet: its figures show when it is built."
+                            : shown.problem);
+  }
+  const PaneView* other = compared_pane(context);
+  const ThemeColors& colors = theme_colors(context.state.preferences.theme);
+  colored_text(colors.dim_text, "Last build or update");
+  draw_table(context, "build", build_rows(), other);
+  ImGui::Spacing();
+  colored_text(colors.dim_text, "Structure");
+  draw_table(context, "shape", shape_rows(), other);
+  ImGui::Spacing();
+  draw_profile(context);
+}
+
+}  // namespace encore::ui
