@@ -133,16 +133,21 @@ std::vector<Window> narrowed(const std::vector<Window>& windows, Seconds edge) {
 
 /// What windows.csv tells of a configuration.
 struct Windows {
-  std::optional<Window> measured;  ///< the last, if it was cut off and measured anew
+  /// The last, if it was cut off and measured anew; all slots of a session of the window.
+  std::vector<Window> measured;
   std::vector<Window> idle;
 };
 
 Windows windows_of(const energy::Session& session, const SummaryRow& row, Seconds since) {
   Windows windows;
+  const bool by_turns = session.info.plan.name == "window";
   for (const energy::WindowRow& window : session.windows) {
-    const bool usable = window.from >= since && window.to > window.from;
-    if (!usable || window.configuration != row.configuration) continue;
-    if (window.kind == "measured") windows.measured = Window{window.from, window.to};
+    if (window.from < since || window.to <= window.from) continue;
+    if (window.configuration != row.configuration) continue;
+    if (window.kind == "measured") {
+      if (!by_turns) windows.measured.clear();
+      windows.measured.push_back({window.from, window.to});
+    }
     if (window.kind == "idle") windows.idle.push_back({window.from, window.to});
   }
   return windows;
@@ -242,21 +247,21 @@ class Attacher {
 
   void add_energies(SummaryRow& row, std::vector<std::string>& notes) {
     const Windows windows = windows_of(old_, row, since_);
-    if (!windows.measured) {
+    if (windows.measured.empty()) {
       notes.emplace_back("no energy: windows.csv does not say when it was measured");
       return;
     }
     const Seconds edge = attached_.place.half_width;
     energy::AttributionInput input;
-    input.measured = narrowed({*windows.measured}, edge);
+    input.measured = narrowed(windows.measured, edge);
     if (input.measured.empty()) {
       notes.push_back(fmt::format(
           "no energy: its {:.3g} s are too short for a recording that is aligned to ± {:.2g} s",
-          (windows.measured->to - windows.measured->from).value, edge.value));
+          (windows.measured.back().to - windows.measured.back().from).value, edge.value));
       return;
     }
     input.idle = narrowed(windows.idle, edge);
-    const energy::BusyTimeline busy = busy_in(old_.frames, *windows.measured);
+    const energy::BusyTimeline busy = busy_in(old_.frames, windows.measured);
     input.busy = &busy;
     input.source = &info_;
     input.trace = part_around(windows);
@@ -278,7 +283,7 @@ class Attacher {
 
   /// The trace of a configuration and a little more on both sides.
   [[nodiscard]] energy::TraceView part_around(const Windows& windows) const {
-    Window whole = *windows.measured;
+    Window whole{windows.measured.front().from, windows.measured.back().to};
     for (const Window& idle : windows.idle) {
       whole = {std::min(whole.from, idle.from), std::max(whole.to, idle.to)};
     }

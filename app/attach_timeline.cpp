@@ -110,9 +110,12 @@ SessionLoad load_of(const energy::Session& session, Seconds since) {
   return load;
 }
 
-energy::BusyTimeline busy_in(const std::vector<FrameRow>& frames, const energy::Window& measured) {
+energy::BusyTimeline busy_in(const std::vector<FrameRow>& frames,
+                             std::span<const energy::Window> measured) {
   energy::BusyTimeline busy = energy::BusyTimeline::of_phases();
-  for (const PlacedRow& row : rows_in(frames, measured)) lay_out(row, busy);
+  for (const energy::Window& window : measured) {
+    for (const PlacedRow& row : rows_in(frames, window)) lay_out(row, busy);
+  }
   return busy;
 }
 

@@ -4,6 +4,7 @@
 #include "energy/attribution/busy_timeline.h"
 #include "energy/session.h"
 
+#include <span>
 #include <vector>
 
 namespace encore::app {
@@ -20,10 +21,10 @@ struct SessionLoad {
 /// blocks) counts as busy. Nothing lies between `from` and `to` if there are no windows.
 SessionLoad load_of(const energy::Session& session, energy::Seconds since);
 
-/// When each phase was busy in a measured window, by the rows of frames.csv: a row tells the mean
-/// of its operations, so they are laid out alike, one after the other from the row's start, each in
-/// the phases' order, none beyond the next row's start.
+/// When each phase was busy in measured windows, which follow each other, by the rows of
+/// frames.csv: a row tells the mean of its operations, so they are laid out alike, one after the
+/// other from the row's start, each in the phases' order, none beyond the next row's start.
 energy::BusyTimeline busy_in(const std::vector<energy::FrameRow>& frames,
-                             const energy::Window& measured);
+                             std::span<const energy::Window> measured);
 
 }  // namespace encore::app

@@ -1,20 +1,17 @@
 #include "app/commands/commands.h"
 #include "app/exit_code.h"
 #include "app/interrupt.h"
+#include "app/window/glfw_window.h"
 #include "energy/sources/discovery.h"
 #include "renderer/gl/error.h"
 #include "scene/diagnostics.h"
-#include "scene/text_suggestion.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <string_view>
-#include <vector>
 
 namespace {
 
@@ -25,31 +22,19 @@ int fail(ExitCode code, const std::string& message) {
   return static_cast<int>(code);
 }
 
-/// A first word that is no command would else be reported as a missing one.
-void check_command_name(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  const std::string_view word = argv[1];
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), word) != names.end()) return;
-  const std::vector<std::string_view> candidates(names.begin(), names.end());
-  throw encore::app::UsageError(fmt::format("unknown command '{}'; there are {}{}", word,
-                                            fmt::join(names, ", "),
-                                            encore::scene::did_you_mean(word, candidates)));
-}
-
 int run(int argc, char** argv) {
   CLI::App app{
       "ENCORE: what does it cost to build, update, ship and trace an acceleration structure for "
       "this scene?"};
   app.set_version_flag("--version", std::string("encore ") + ENCORE_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.footer(
       "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 no usable power sensor,\n"
-      "5 no usable OpenGL, 6 verification mismatch, 7 regression,\n"
+      "5 no usable OpenGL or display, 6 verification mismatch, 7 regression,\n"
       "130 interrupted (what was measured is saved).");
 
   ExitCode result = ExitCode::ok;
+  encore::app::add_window(app, result);
   encore::app::add_profile_command(app, result);
   encore::app::add_study_command(app, result);
   encore::app::add_render_command(app, result);
@@ -63,7 +48,6 @@ int run(int argc, char** argv) {
   encore::app::add_attach_command(app, result);
 
   try {
-    check_command_name(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
@@ -74,6 +58,8 @@ int run(int argc, char** argv) {
     return fail(ExitCode::bad_input, error.what());
   } catch (const encore::energy::SensorError& error) {
     return fail(ExitCode::no_sensor, error.what());
+  } catch (const encore::app::WindowUnavailable& error) {
+    return fail(ExitCode::no_display, error.what());
   } catch (const encore::renderer::gl::GlUnavailable& error) {
     return fail(ExitCode::no_display, error.what());
   } catch (const std::bad_alloc&) {

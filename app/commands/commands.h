@@ -9,6 +9,8 @@ namespace encore::app {
 /// Each add_* declares one subcommand with its options; when chosen on the command line, its
 /// callback does the work and stores the exit code. Errors leave as exceptions (main.cpp turns
 /// scene::InputError into 3, UsageError into 2, anything else into 1).
+/// The window, which opens where no subcommand is given.
+void add_window(CLI::App& app, ExitCode& result);
 void add_scenes_command(CLI::App& app, ExitCode& result);
 void add_info_command(CLI::App& app, ExitCode& result);
 void add_verify_command(CLI::App& app, ExitCode& result);

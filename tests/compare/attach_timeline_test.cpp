@@ -9,6 +9,10 @@ namespace {
 using energy::Phase;
 using energy::Seconds;
 
+std::vector<energy::Window> one_window(double from, double to) {
+  return {{Seconds(from), Seconds(to)}};
+}
+
 TEST(AttachTimeline, OperationsOfARowAreLaidOutOneByOne) {
   energy::FrameRow row;
   row.operations = 4;
@@ -17,7 +21,7 @@ TEST(AttachTimeline, OperationsOfARowAreLaidOutOneByOne) {
   row.phases[Phase::render] = Seconds(0.3);
   energy::FrameRow next = row;
   next.time = Seconds(2.5);  // sooner than the means would have it
-  const energy::BusyTimeline busy = busy_in({row, next}, {Seconds(0.5), Seconds(10)});
+  const energy::BusyTimeline busy = busy_in({row, next}, one_window(0.5, 10));
   const auto build = static_cast<std::size_t>(Phase::build);
   const auto render = static_cast<std::size_t>(Phase::render);
   EXPECT_NEAR(busy.busy(build, Seconds(1.0), Seconds(1.4)).value, 0.1, 1e-9);
@@ -27,8 +31,7 @@ TEST(AttachTimeline, OperationsOfARowAreLaidOutOneByOne) {
   EXPECT_NEAR(busy.operations(Seconds(2.5), Seconds(10)), 4.0, 1e-9);
   EXPECT_NEAR(busy.busy(render, Seconds(2.5), Seconds(10)).value, 1.2, 1e-9);
   // Rows of other windows do not count.
-  EXPECT_EQ(busy_in({row, next}, {Seconds(2), Seconds(10)}).operations(Seconds(0), Seconds(9)),
-            4.0);
+  EXPECT_EQ(busy_in({row, next}, one_window(2, 10)).operations(Seconds(0), Seconds(9)), 4.0);
 }
 
 TEST(AttachTimeline, ShortOperationsAreTakenTogether) {
@@ -36,7 +39,7 @@ TEST(AttachTimeline, ShortOperationsAreTakenTogether) {
   row.operations = 1000000;
   row.phases[Phase::build] = Seconds(2e-9);
   row.phases[Phase::render] = Seconds(6e-9);
-  const energy::BusyTimeline busy = busy_in({row}, {Seconds(0), Seconds(1)});
+  const energy::BusyTimeline busy = busy_in({row}, one_window(0, 1));
   EXPECT_NEAR(busy.operations(Seconds(0), Seconds(0.004)), 5e5, 1.0);
   EXPECT_NEAR(busy.busy(0, Seconds(0), Seconds(1)).value, 0.0, 1e-12);
   const auto build = static_cast<std::size_t>(Phase::build);
@@ -72,6 +75,22 @@ TEST(AttachTimeline, WhatIsNotIdleIsBusy) {
     EXPECT_EQ(load.busy[i].end.value, expected[i][1]);
   }
   EXPECT_EQ(load_of(session, Seconds(9)).from.value, 13.0);
+}
+
+TEST(AttachTimeline, SlotsOfTheWindowCountTogether) {
+  energy::FrameRow row;
+  row.operations = 1;
+  row.time = Seconds(1.0);
+  row.phases[Phase::render] = Seconds(0.5);
+  energy::FrameRow between = row;
+  between.time = Seconds(4.0);
+  energy::FrameRow last = row;
+  last.time = Seconds(7.0);
+  const std::vector<energy::Window> slots{{Seconds(0), Seconds(3)}, {Seconds(6), Seconds(9)}};
+  const energy::BusyTimeline busy = busy_in({row, between, last}, slots);
+  const auto render = static_cast<std::size_t>(Phase::render);
+  EXPECT_NEAR(busy.busy(render, Seconds(0), Seconds(9)).value, 1.0, 1e-9);
+  EXPECT_NEAR(busy.operations(Seconds(3), Seconds(6)), 0.0, 1e-9);
 }
 
 }  // namespace

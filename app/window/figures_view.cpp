@@ -1,0 +1,180 @@
+#include "app/window/figures_view.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace encore::app {
+
+namespace {
+
+ui::EnergyFigure figure(const std::optional<double>& value, const std::optional<double>& half_width,
+                        const energy::Provenance& provenance) {
+  ui::EnergyFigure figure;
+  figure.value = value;
+  figure.half_width = half_width;
+  figure.provenance = provenance;
+  if (!value && provenance.origin != energy::Origin::unavailable) {
+    figure.provenance = {energy::Origin::unavailable, provenance.detail};
+  }
+  return figure;
+}
+
+template <class Quantity>
+std::optional<double> value_of(const std::optional<Quantity>& quantity) {
+  if (!quantity) return std::nullopt;
+  return quantity->value;
+}
+
+std::vector<ui::PhaseFigure> phases_of(const ConfigurationBars& bars) {
+  std::vector<ui::PhaseFigure> phases;
+  for (const PhaseBar& bar : bars.phases) {
+    ui::PhaseFigure phase;
+    phase.phase = bar.phase;
+    phase.seconds = bar.seconds;
+    energy::Provenance provenance = bars.energy;
+    if (!bar.joules) {
+      provenance = {energy::Origin::unavailable, bar.note.empty() ? provenance.detail : bar.note};
+    }
+    phase.joules = figure(bar.joules ? std::optional(bar.joules->value) : std::nullopt,
+                          bar.joules ? bar.joules->half_width : std::nullopt, provenance);
+    phases.push_back(std::move(phase));
+  }
+  return phases;
+}
+
+void add_errors(const std::vector<energy::ConvergenceRow>& rows,
+                const std::vector<energy::KeyValue>& configuration, ui::ConfigurationView& view) {
+  for (const energy::ConvergenceRow& row : rows) {
+    if (row.configuration != configuration || !row.relative_ci95) continue;
+    const ui::ErrorPoint point{row.elapsed.value, *row.relative_ci95};
+    if (row.quantity == "time_per_operation") view.time_error.push_back(point);
+    if (row.quantity == "joules_per_operation") view.joules_error.push_back(point);
+  }
+}
+
+ui::ConfigurationView view_of(const energy::SummaryRow& summary, const ConfigurationBars& bars) {
+  ui::ConfigurationView view;
+  view.label = bars.name;
+  view.operations = static_cast<double>(summary.operations);
+  view.measured_s = summary.seconds.value;
+  view.mean_s = summary.mean.value;
+  view.median_s = value_of(summary.median);
+  view.ci95_s = value_of(summary.ci95);
+  if (bars.mrays_per_s) view.rays_per_s = *bars.mrays_per_s * 1e6;
+  view.watts = figure(value_of(summary.watts), value_of(summary.watts_ci95), bars.energy);
+  view.joules = figure(value_of(summary.joules), value_of(summary.joules_ci95), bars.energy);
+  view.net_joules =
+      figure(value_of(summary.net_joules), value_of(summary.net_joules_ci95), bars.energy);
+  view.phases = phases_of(bars);
+  return view;
+}
+
+std::vector<std::string> parts_of(const std::string& label) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; end != std::string::npos; begin = end + 2) {
+    end = label.find(", ", begin);
+    parts.push_back(label.substr(begin, end == std::string::npos ? end : end - begin));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<std::string> short_labels(const std::vector<std::string>& labels) {
+  if (labels.size() < 2) return labels;
+  std::vector<std::vector<std::string>> all;
+  for (const std::string& label : labels) all.push_back(parts_of(label));
+  const std::size_t count = all.front().size();
+  std::vector<bool> differs(count, false);
+  for (const auto& parts : all) {
+    if (parts.size() != count) return labels;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (parts[i] != all.front()[i]) differs[i] = true;
+    }
+  }
+  std::vector<std::string> result;
+  for (std::size_t label = 0; label < labels.size(); ++label) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!differs[i]) continue;
+      if (!text.empty()) text += ", ";
+      text += all[label][i];
+    }
+    result.push_back(text.empty() ? labels[label] : text);
+  }
+  return result;
+}
+
+namespace {
+
+/// Where several configurations are shown together, what all have in common need not be said.
+template <class LabelledView>
+void shorten(std::vector<LabelledView>& views) {
+  std::vector<std::string> labels;
+  for (const LabelledView& view : views) labels.push_back(view.label);
+  labels = short_labels(labels);
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].label = labels[i];
+}
+
+}  // namespace
+
+std::vector<ui::ConfigurationView> views_of(const Figures& figures) {
+  std::vector<ui::ConfigurationView> views;
+  for (const LiveFigures& live : figures.configurations) {
+    const auto bars = bars_of({live.summary}, live.phases, live.energy);
+    if (bars.empty()) continue;
+    ui::ConfigurationView view = view_of(live.summary, bars.front());
+    if (!live.name.empty()) view.label = live.name;
+    if (live.mrays_per_s) view.rays_per_s = *live.mrays_per_s * 1e6;
+    view.notes = live.notes;
+    add_errors(live.convergence, live.configuration, view);
+    views.push_back(std::move(view));
+  }
+  shorten(views);
+  return views;
+}
+
+std::vector<ui::ConfigurationView> views_of(const OpenedSession& session) {
+  std::vector<ui::ConfigurationView> views;
+  const auto& summaries = session.session.summaries;
+  for (std::size_t i = 0; i < session.bars.size() && i < summaries.size(); ++i) {
+    ui::ConfigurationView view = view_of(summaries[i], session.bars[i]);
+    add_errors(session.session.convergence, summaries[i].configuration, view);
+    views.push_back(std::move(view));
+  }
+  shorten(views);
+  return views;
+}
+
+std::vector<ui::ChangeView> views_of(const OpenedComparison& comparison) {
+  std::vector<ui::ChangeView> views;
+  for (const ComparedConfiguration& one : comparison.matched) {
+    ui::ChangeView view;
+    view.label = one.name;
+    view.a_s = one.seconds.a;
+    view.b_s = one.seconds.b;
+    view.time_percent = one.seconds.percent;
+    if (one.seconds.interval) {
+      view.time_low = one.seconds.interval->first;
+      view.time_high = one.seconds.interval->second;
+    }
+    view.time_verdict = to_string(one.seconds.verdict);
+    if (one.joules) {
+      view.a_joules = one.joules->a;
+      view.b_joules = one.joules->b;
+      view.joules_percent = one.joules->percent;
+      if (one.joules->interval) {
+        view.joules_low = one.joules->interval->first;
+        view.joules_high = one.joules->interval->second;
+      }
+      view.joules_verdict = to_string(one.joules->verdict);
+    }
+    views.push_back(std::move(view));
+  }
+  shorten(views);
+  return views;
+}
+
+}  // namespace encore::app

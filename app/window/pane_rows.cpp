@@ -1,0 +1,62 @@
+#include "app/window/pane_rows.h"
+
+#include <optional>
+
+namespace encore::app {
+
+ui::FrameFigures figures_of(const energy::PhaseLog& log) {
+  ui::FrameFigures figures;
+  const auto add = [](std::optional<double>& sum, double seconds) {
+    sum = sum.value_or(0.0) + seconds;
+  };
+  for (const energy::PhaseSpan& span : log.spans()) {
+    const double seconds = (span.end - span.start).value;
+    switch (span.phase) {
+      case energy::Phase::animate:
+        add(figures.animate_s, seconds);
+        break;
+      case energy::Phase::build:
+        add(figures.build_s, seconds);
+        break;
+      case energy::Phase::update:
+        add(figures.update_s, seconds);
+        break;
+      case energy::Phase::transfer:
+        add(figures.transfer_s, seconds);
+        break;
+      case energy::Phase::render:
+        add(figures.render_s, seconds);
+        break;
+    }
+  }
+  return figures;
+}
+
+WorkloadSpec workload_of(const PaneRequest& request, bool forced) {
+  WorkloadSpec spec;
+  spec.scene = request.scene;
+  spec.device = *request.device;
+  spec.structure = request.structure;
+  spec.policy = request.policy;
+  spec.size = {request.width, request.height};
+  spec.threads = request.threads;
+  spec.test = request.scene->animated() ? TestKind::animated
+              : forced                  ? TestKind::forced
+                                        : TestKind::fixed;
+  return spec;
+}
+
+energy::FrameRow row_of(const PaneRequest& request, const energy::PhaseLog& log,
+                        std::size_t triangles) {
+  energy::FrameRow row;
+  row.time = log.spans().front().start;
+  row.configuration = configuration_of(workload_of(request, false), triangles);
+  row.operations = 1;
+  for (const energy::PhaseSpan& span : log.spans()) {
+    std::optional<energy::Seconds>& sum = row.phases[span.phase];
+    sum = sum.value_or(energy::Seconds(0.0)) + (span.end - span.start);
+  }
+  return row;
+}
+
+}  // namespace encore::app

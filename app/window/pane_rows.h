@@ -1,0 +1,24 @@
+#pragma once
+
+#include "app/window/pane_request.h"
+#include "app/workloads.h"
+#include "energy/phase_log.h"
+#include "energy/session.h"
+#include "ui/view.h"
+
+#include <cstddef>
+
+namespace encore::app {
+
+/// The times of the phases marked in `log`; those that did not happen are missing.
+ui::FrameFigures figures_of(const energy::PhaseLog& log);
+
+/// What frames of a request are called in sessions; `forced`: scenes that stand still are followed
+/// as if they moved. The request has a scene and a device.
+WorkloadSpec workload_of(const PaneRequest& request, bool forced);
+
+/// A frame of explore mode as a row of frames.csv; the log has at least one mark.
+energy::FrameRow row_of(const PaneRequest& request, const energy::PhaseLog& log,
+                        std::size_t triangles);
+
+}  // namespace encore::app

@@ -1,0 +1,266 @@
+#include "app/window/pane_tracer.h"
+
+#include "accel/build_watch.h"
+#include "accel/make_structure.h"
+#include "accel/update_policy.h"
+#include "app/make_renderer.h"
+#include "renderer/cpu_tracer.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace encore::app {
+
+using energy::Phase;
+using scene::TriangleChange;
+
+namespace {
+
+/// Tells a structure of its watch for the time of a build.
+class Watched {
+ public:
+  Watched(accel::AccelerationStructure& structure, accel::BuildWatch* watch)
+      : structure_(structure) {
+    structure_.set_build_watch(watch);
+  }
+  ~Watched() { structure_.set_build_watch(nullptr); }
+  Watched(const Watched&) = delete;
+  Watched& operator=(const Watched&) = delete;
+
+ private:
+  accel::AccelerationStructure& structure_;
+};
+
+}  // namespace
+
+void PaneTracer::clear() {
+  renderer_.reset();
+  tracer_ = nullptr;
+  ready_ = false;
+  structure_.reset();
+  built_ = false;
+  spec_.reset();
+  scene_.reset();
+  device_.reset();
+  triangles_ = std::make_unique<scene::TriangleList>();
+}
+
+const accel::AccelerationStructure* PaneTracer::structure() const {
+  return built_ ? structure_.get() : nullptr;
+}
+
+void PaneTracer::use_scene(const PaneRequest& request) {
+  if (scene_ == request.scene) return;
+  // The renderer holds pointers into all of these.
+  renderer_.reset();
+  tracer_ = nullptr;
+  device_.reset();
+  ready_ = false;
+  structure_.reset();
+  spec_.reset();
+  built_ = false;
+  triangles_ = std::make_unique<scene::TriangleList>();
+  scene_ = request.scene;
+  ++structure_serial_;
+  ++content_serial_;
+}
+
+void PaneTracer::use_structure(const PaneRequest& request) {
+  if (!traces_rays(*request.device)) {
+    if (structure_) {
+      renderer_.reset();
+      tracer_ = nullptr;
+      ready_ = false;
+    }
+    structure_.reset();
+    spec_.reset();
+    built_ = false;
+    return;
+  }
+  if (structure_ && spec_ && *spec_ == request.structure) return;
+  ready_ = false;
+  built_ = false;
+  structure_ = accel::make_structure(request.structure);
+  spec_ = request.structure;
+}
+
+void PaneTracer::use_renderer(const PaneRequest& request) {
+  const int threads = *request.device == Device::cpu ? request.threads : 0;
+  if (renderer_ && device_ == request.device && threads_ == threads) return;
+  renderer_.reset();
+  tracer_ = nullptr;
+  ready_ = false;
+  renderer_ = make_renderer(*request.device, threads, gpu_);
+  tracer_ =
+      traces_rays(*request.device) ? dynamic_cast<renderer::Tracer*>(renderer_.get()) : nullptr;
+  device_ = request.device;
+  threads_ = threads;
+  software_ = uses_opengl(*request.device) && gpu_.get()->capabilities().software;
+  ++content_serial_;
+}
+
+bool PaneTracer::must_build(const PaneRequest& request) const {
+  if (!request.device || !traces_rays(*request.device)) return false;
+  return scene_ != request.scene || !built_ || !spec_ || !(*spec_ == request.structure) ||
+         rebuild_ != request.rebuild;
+}
+
+bool PaneTracer::fits_on_device(const PaneRequest& request) const {
+  // Whoever looks at the nodes needs the host's.
+  return request.policy == accel::Policy::refit && *request.device == Device::gpu && ready_ &&
+         tracer_ != nullptr && structure_ && structure_->can_refit() && tracer_->can_refit() &&
+         !request.nodes && !request.free && !request.pick;
+}
+
+void PaneTracer::build(const PaneRequest& request, energy::PhaseLog& log,
+                       accel::BuildWatch* watch) {
+  built_ = false;
+  fitted_on_device_ = false;
+  {
+    const Watched watched(*structure_, watch);
+    const auto mark = log.mark(Phase::build);
+    accel::carry_out(accel::UpdateAction::build, request.policy, *structure_,
+                     triangles_->triangles);
+  }
+  built_ = true;
+  built_over_ = triangles_->triangles.size();
+  stale_ = true;
+  ++build_serial_;
+  ++structure_serial_;
+  ++content_serial_;
+}
+
+void PaneTracer::update(const PaneRequest& request, energy::PhaseLog& log) {
+  stale_ = true;
+  ++content_serial_;
+  if (fits_on_device(request)) {
+    update_on_device_ = true;
+    return;
+  }
+  const auto mark = log.mark(Phase::update);
+  accel::carry_out(accel::UpdateAction::update, request.policy, *structure_, triangles_->triangles);
+  fitted_on_device_ = false;
+  ++structure_serial_;
+}
+
+void PaneTracer::follow(TriangleChange change, const PaneRequest& request, energy::PhaseLog& log,
+                        accel::BuildWatch* watch) {
+  if (change != TriangleChange::none) {
+    stale_ = true;
+    ++content_serial_;
+  }
+  if (!structure_) return;
+  const bool asked = rebuild_ != request.rebuild;
+  rebuild_ = request.rebuild;
+  if (!built_ || asked) {
+    build(request, log, watch);
+    return;
+  }
+  switch (accel::decide(request.policy, *structure_, change)) {
+    case accel::UpdateAction::none:
+      if (triangles_->triangles.size() != built_over_) {
+        throw std::runtime_error(
+            "the number of triangles changed, which policy static cannot "
+            "follow; choose rebuild");
+      }
+      // Another policy left the device ahead of the host's structure.
+      if (fitted_on_device_ && (request.nodes || request.free || request.pick)) {
+        update(request, log);
+      }
+      break;
+    case accel::UpdateAction::build:
+      build(request, log, watch);
+      break;
+    case accel::UpdateAction::update:
+      update(request, log);
+      break;
+  }
+}
+
+void PaneTracer::send(energy::PhaseLog& log) {
+  uploaded_bytes_ = 0;
+  if (ready_ && !stale_) return;
+  const auto pass_on = [this] {
+    if (ready_) {
+      renderer_->refresh();
+    } else {
+      renderer_->init({scene_.get(), triangles_.get(), structure_.get()});
+    }
+  };
+  if (renderer_->transfers()) {
+    const auto mark = log.mark(Phase::transfer);
+    pass_on();
+  } else {
+    pass_on();
+  }
+  ready_ = true;
+  stale_ = false;
+  uploaded_bytes_ = renderer_->last_transfer().uploaded_bytes;
+  if (std::exchange(update_on_device_, false)) {
+    const auto mark = log.mark(Phase::update);
+    tracer_->refit();
+    fitted_on_device_ = true;
+  }
+}
+
+void PaneTracer::prepare(const PaneRequest& request, energy::PhaseLog& log,
+                         accel::BuildWatch* watch) {
+  use_scene(request);
+  use_structure(request);
+  use_renderer(request);
+  TriangleChange change = TriangleChange::none;
+  if (triangles_->version == 0 || time_s_ != request.time_s) {
+    if (scene_->animated() && triangles_->version != 0) {
+      const auto mark = log.mark(Phase::animate);
+      change = scene::update_triangles(*scene_, request.time_s, *triangles_);
+    } else {
+      change = scene::update_triangles(*scene_, request.time_s, *triangles_);
+    }
+    time_s_ = request.time_s;
+  }
+  follow(change, request, log, watch);
+  send(log);
+}
+
+void PaneTracer::follow_forced(const PaneRequest& request, energy::PhaseLog& log) {
+  if (!structure_) return;
+  if (accel::decide(request.policy, *structure_, TriangleChange::moved) ==
+      accel::UpdateAction::update) {
+    update(request, log);
+  } else if (request.policy != accel::Policy::fixed) {
+    build(request, log, nullptr);
+  }
+  send(log);
+}
+
+bool PaneTracer::draw(const scene::Camera& camera, int width, int height, energy::PhaseLog& log,
+                      const std::atomic<bool>* cancel) {
+  renderer_->set_cancel_flag(cancel);
+  {
+    const auto mark = log.mark(Phase::render);
+    renderer_->draw(camera, width, height);
+  }
+  renderer_->set_cancel_flag(nullptr);
+  return renderer_->complete();
+}
+
+std::string PaneTracer::device_text() const {
+  if (!renderer_) return {};
+  const std::string name = renderer_->device_name();
+  if (!name.empty()) return name;
+  const auto* cpu = dynamic_cast<const renderer::CpuTracer*>(renderer_.get());
+  const int threads = cpu != nullptr ? cpu->threads() : 1;
+  return fmt::format("CPU, {} thread{}", threads, threads == 1 ? "" : "s");
+}
+
+std::uint64_t PaneTracer::memory_bytes() const {
+  std::uint64_t bytes = triangles_->triangles.capacity() * sizeof(scene::Triangle) +
+                        (triangles_->normals.capacity() + triangles_->colors.capacity()) *
+                            sizeof(triangles_->normals[0]);
+  if (built_) bytes += structure_->stats().bytes;
+  return bytes;
+}
+
+}  // namespace encore::app

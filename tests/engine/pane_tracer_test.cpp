@@ -1,0 +1,141 @@
+// A pane does the least work that brings it to what is asked for.
+#include "app/window/pane_tracer.h"
+
+#include "energy/clock.h"
+#include "scene/sample_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace encore::app {
+namespace {
+
+PaneRequest request_for(const char* scene, Device device = Device::cpu) {
+  PaneRequest request;
+  request.scene = std::make_shared<const scene::Scene>(*scene::make_sample_scene(scene));
+  request.device = device;
+  request.camera = request.scene->camera;
+  request.width = 48;
+  request.height = 32;
+  request.threads = 1;
+  return request;
+}
+
+class PaneTracerTest : public testing::Test {
+ protected:
+  std::vector<energy::Phase> prepare(const PaneRequest& request) {
+    log_.clear();
+    tracer_.prepare(request, log_, nullptr);
+    std::vector<energy::Phase> phases;
+    for (const energy::PhaseSpan& span : log_.spans()) phases.push_back(span.phase);
+    return phases;
+  }
+  energy::SteadyClock clock_;
+  energy::PhaseLog log_{clock_};
+  PaneTracer tracer_{std::nullopt};
+};
+
+using Phases = std::vector<energy::Phase>;
+
+TEST_F(PaneTracerTest, BuildsOnceAndThenOnlyWhatChanged) {
+  PaneRequest request = request_for("mug");
+  EXPECT_TRUE(tracer_.must_build(request));
+  EXPECT_EQ(prepare(request), Phases{energy::Phase::build});
+  EXPECT_FALSE(tracer_.must_build(request));
+  EXPECT_EQ(prepare(request), Phases{});
+  request.camera.eye.x += 1.0F;
+  EXPECT_EQ(prepare(request), Phases{});
+  request.structure = accel::default_spec(accel::StructureKind::kd_sah);
+  EXPECT_EQ(prepare(request), Phases{energy::Phase::build});
+  request.rebuild = 7;
+  EXPECT_EQ(prepare(request), Phases{energy::Phase::build});
+  EXPECT_EQ(prepare(request), Phases{});
+}
+
+TEST_F(PaneTracerTest, AMovingSceneFollowsItsPolicy) {
+  PaneRequest request = request_for("wave");
+  ASSERT_TRUE(request.scene->animated());
+  prepare(request);
+  request.time_s = 0.3;
+  EXPECT_EQ(prepare(request), (Phases{energy::Phase::animate, energy::Phase::build}));
+  request.policy = accel::Policy::refit;
+  request.time_s = 0.4;
+  EXPECT_EQ(prepare(request), (Phases{energy::Phase::animate, energy::Phase::update}));
+  request.policy = accel::Policy::fixed;
+  request.time_s = 0.5;
+  EXPECT_EQ(prepare(request), Phases{energy::Phase::animate});
+}
+
+TEST_F(PaneTracerTest, ContentChangesWithTimeButNotWithTheStructure) {
+  PaneRequest request = request_for("wave");
+  prepare(request);
+  const std::uint64_t first = tracer_.content_serial();
+  prepare(request);
+  EXPECT_EQ(tracer_.content_serial(), first);
+  request.time_s = 0.3;
+  prepare(request);
+  EXPECT_NE(tracer_.content_serial(), first);
+}
+
+TEST_F(PaneTracerTest, ACancelledBuildIsDoneAgainWhenAskedFor) {
+  PaneRequest request = request_for("toys");
+  const std::atomic<bool> cancel{true};
+  accel::BuildWatch watch;
+  watch.cancel = &cancel;
+  log_.clear();
+  EXPECT_THROW(tracer_.prepare(request, log_, &watch), accel::BuildCancelled);
+  EXPECT_EQ(tracer_.structure(), nullptr);
+  EXPECT_TRUE(tracer_.must_build(request));
+  EXPECT_EQ(prepare(request), Phases{energy::Phase::build});
+  EXPECT_NE(tracer_.structure(), nullptr);
+}
+
+TEST_F(PaneTracerTest, ForcedFramesBuildOrUpdateThoughNothingMoves) {
+  PaneRequest request = request_for("mug");
+  prepare(request);
+  log_.clear();
+  tracer_.follow_forced(request, log_);
+  ASSERT_EQ(log_.spans().size(), 1U);
+  EXPECT_EQ(log_.spans()[0].phase, energy::Phase::build);
+  request.policy = accel::Policy::refit;
+  log_.clear();
+  tracer_.follow_forced(request, log_);
+  ASSERT_EQ(log_.spans().size(), 1U);
+  EXPECT_EQ(log_.spans()[0].phase, energy::Phase::update);
+}
+
+TEST_F(PaneTracerTest, AnotherSceneReplacesEverything) {
+  prepare(request_for("mug"));
+  const auto before = tracer_.triangles().triangles.size();
+  const PaneRequest request = request_for("wave");
+  EXPECT_EQ(prepare(request), Phases{energy::Phase::build});
+  EXPECT_NE(tracer_.triangles().triangles.size(), before);
+  EXPECT_TRUE(tracer_.draw(request.camera, 16, 16, log_, nullptr));
+}
+
+TEST_F(PaneTracerTest, PolicyStaticSaysWhatItCannotFollow) {
+  PaneRequest request = request_for("toys");
+  // A scene whose number of triangles changes from frame to frame.
+  auto changing = std::make_shared<scene::Scene>(*request.scene);
+  const auto few = std::make_shared<const scene::Model>(*changing->instances.front().model);
+  auto less = std::make_shared<scene::Model>(*few);
+  less->mesh.triangles.pop_back();
+  if (!less->mesh.material_of.empty()) less->mesh.material_of.pop_back();
+  changing->instances.resize(1);
+  changing->instances[0].motion = scene::FrameSequence{{few, less}, 10.0F};
+  request.scene = changing;
+  request.policy = accel::Policy::fixed;
+  prepare(request);
+  request.time_s = 0.15;
+  log_.clear();
+  try {
+    tracer_.prepare(request, log_, nullptr);
+    FAIL() << "a structure over triangles that are gone was traced";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("choose rebuild"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace encore::app
