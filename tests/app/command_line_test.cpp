@@ -31,7 +31,6 @@ TEST(CommandLine, WrongUsageExitsWithTwoAndSaysWhat) {
     std::string says;
   };
   const Case cases[] = {
-      {{}, "subcommand"},
       {{"profil"}, "profil"},
       {{"verify", "--structure", "kd-sha"}, "did you mean 'kd-sah'"},
       {{"verify", "--set", "kd.leaf_triangle=4"}, "did you mean 'kd.leaf_triangles'"},

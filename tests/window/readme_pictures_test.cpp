@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kModel{
-    "--model", "idle=12,animate=6,build=20,update=15,transfer=8,render=45"};
+const std::vector<std::string> kModel{"--model",
+                                      "idle=12,animate=6,build=20,update=15,transfer=8,render=45"};
 
 std::string pane(const char* side, const char* device, const std::string& structure,
                  const char* policy = "rebuild", const char* content = "picture") {
@@ -77,24 +77,23 @@ class ReadmePictures : public WindowTest {
     save(shot, name, {0, 0, shot.width(), shot.height()});
   }
 
-  /// The part from a view's heading to the window's right, without the status line.
-  void save_from(const char* heading, const std::string& name) {
+  /// The 3D view and the column beside it.
+  void save_view_and_column(const std::string& name) {
     const Screenshot shot = person().look_calmly();
-    const Widget title = person().see(heading);
-    const Widget status = person().see("status.text");
-    const int x = std::max(0, title.x - 52);
-    save(shot, name, {x, title.y - 8, shot.width() - x, status.y - 6 - title.y + 8});
+    const Widget view = person().see("structure_view.picture");
+    const int top = person().see("structure_view.pane.0").y - 6;
+    save(shot, name, {view.x, top, shot.width() - view.x, view.y + view.height - top});
   }
 
   /// A structure over the traced scene, nothing beside it.
   void overlay_picture(const std::string& name, const std::string& structure,
                        const std::string& looks) {
     keep(structure + pane("right", "off", "kd-sah") + "[overlay]\nshow = true\n" + looks,
-         kBare + camera("bunny", "[22.0, 13.0, 38.0]", "[0.0, 0.0, 0.0]", 40.0));
-    start({"bunny"}, "420x500");
+         kBare + camera("bunny", "[22.0, 13.0, 38.0]", "[0.5, -0.6, 0.0]", 42.0));
+    start({"bunny"}, "380x500");
     take_camera();
     const Screenshot shot = person().look_calmly();
-    save(shot, name, middle_of(person().see("pane.0.picture"), 380, 380));
+    save(shot, name, middle_of(person().see("pane.0.picture"), 350, 350));
     close();
   }
 
@@ -110,6 +109,8 @@ class ReadmePictures : public WindowTest {
                  contains(now.state("pane.1.joules"), "J");
         },
         "joules a frame of both panes");
+    // Where nothing is hovered.
+    person().move(person().see("menu.frames").x - 300, 2);
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   }
 
@@ -133,7 +134,7 @@ TEST_F(ReadmePictures, DISABLED_Window) {
   keep(pane("left", "cpu", "kd-sah") + pane("right", "gpu", "bvh-median", "refit") +
            "[measure]\nslot_s = 1.5\nidle_s = 0.6\n",
        "[layout]\nright_width = 22.0\n" +
-           camera("toys", "[0.0, 8.0, 34.0]", "[0.0, -1.5, 0.0]", 48.0));
+           camera("toys", "[0.0, 8.0, 34.0]", "[0.0, -1.5, 0.0]", 55.0));
   start(with_model("toys"), "1600x1000");
   take_camera();
   measure(45.0);
@@ -144,10 +145,8 @@ TEST_F(ReadmePictures, DISABLED_Window) {
 
 TEST_F(ReadmePictures, DISABLED_LightWindow) {
   keep("theme = \"light\"\n" + pane("left", "cpu", "grid-exact") +
-           pane("right", "cpu", "bvh-median", "refit") +
-           "[measure]\nslot_s = 1.2\nidle_s = 0.5\n",
-       "[layout]\nright = false\n" +
-           camera("wave", "[10.0, 16.0, 34.0]", "[0.0, -1.5, 0.0]", 42.0));
+           pane("right", "cpu", "bvh-median", "refit") + "[measure]\nslot_s = 1.2\nidle_s = 0.5\n",
+       "[layout]\nright = false\n" + camera("wave", "[8.0, 15.0, 36.0]", "[0.0, -2.0, 0.0]", 46.0));
   start(with_model("wave"), "1280x800");
   take_camera();
   person().key("Ctrl+r");
@@ -164,35 +163,37 @@ TEST_F(ReadmePictures, DISABLED_Overlays) {
   overlay_picture("overlay-kd", pane("left", "cpu", "kd-sah"),
                   "last_depth = 8\nplanes = false\nline_pixels = 1.2\n");
   overlay_picture("overlay-bvh", pane("left", "cpu", "bvh-median"),
-                  "first_depth = 4\nlast_depth = 6\nline_pixels = 1.2\n");
+                  "first_depth = 3\nlast_depth = 6\nline_pixels = 1.2\n");
 }
 
 TEST_F(ReadmePictures, DISABLED_StructureIn3D) {
   keep(pane("left", "cpu", "bvh-median") + pane("right", "off", "bvh-median") +
-           "[overlay]\nlast_depth = 7\nsection = true\nsection_axis = 2\n"
-           "section_position = 0.62\n",
+           "[overlay]\nfirst_depth = 4\nlast_depth = 7\nsection = true\nsection_axis = 0\n"
+           "section_position = 0.55\n",
        "[layout]\nleft = false\nright = true\nplots = false\nright_width = 24.0\n"
        "pane_split = 0.3\n" +
-           camera("cow", "[20.0, 10.0, 36.0]", "[0.0, 0.0, 0.0]", 38.0));
-  start({"cow"}, "1280x620");
+           camera("cow", "[-16.0, 9.0, 36.0]", "[0.0, 0.0, 0.0]", 38.0));
+  start({"cow"}, "1200x560");
   take_camera();
   person().key("v");
   const Widget view = person().see("structure_view.picture");
   person().wait_idle();
+  person().wheel(view.center_x(), view.center_y(), 1);
+  person().wait_idle();
   person().click("structure.tab.tree");
   person().see("tree.list");
-  person().click(view.center_x() + view.width / 5, view.center_y());
+  person().click(view.center_x() - 30, view.center_y());
   person().wait_idle();
-  save_from("structure_view.title", "structure-3d");
+  save_view_and_column("structure-3d");
   close();
 }
 
 TEST_F(ReadmePictures, DISABLED_RayPath) {
   keep(pane("left", "cpu", "kd-sah") + pane("right", "off", "kd-sah") +
-           "[overlay]\nlast_depth = 2\nplanes = false\n",
-       "[layout]\nleft = false\nright = true\nplots = false\nright_width = 30.0\n" +
-           camera("cow", "[-14.0, 6.0, 36.0]", "[0.0, 0.0, 0.0]", 38.0));
-  start({"cow"}, "1400x620");
+           "[overlay]\nlast_depth = 1\nplanes = false\n",
+       "[layout]\nleft = false\nright = true\nplots = false\nright_width = 37.0\n" +
+           camera("cow", "[-4.0, 4.0, 36.0]", "[0.0, 0.0, 0.0]", 42.0));
+  start({"cow"}, "1560x600");
   take_camera();
   person().key("v");
   const Widget view = person().see("structure_view.picture");
@@ -201,15 +202,14 @@ TEST_F(ReadmePictures, DISABLED_RayPath) {
   person().click(picture.center_x() + 60, picture.center_y() - 20);
   person().see("ray.step");
   for (int i = 0; i < 12; ++i) person().key("Right");
-  // From the side, so that the ray is seen as a line.
-  person().drag(view.center_x() + 140, view.center_y(), view.center_x() - 80, view.center_y() + 30);
-  save_from("structure_view.title", "ray-path");
+  person().wheel(view.center_x(), view.center_y(), 1);
+  save_view_and_column("ray-path");
   close();
 }
 
 TEST_F(ReadmePictures, DISABLED_Heatmap) {
   keep(pane("left", "cpu", "kd-sah", "rebuild", "heatmap") + pane("right", "off", "kd-sah"),
-       kBare + camera("dragon", "[16.0, 9.0, 34.0]", "[0.0, -1.0, 0.0]", 36.0));
+       kBare + camera("dragon", "[16.0, 9.0, 34.0]", "[-2.0, -2.0, 0.0]", 37.0));
   start({"dragon"}, "720x560");
   take_camera();
   const Screenshot shot = person().look_calmly();
@@ -222,13 +222,16 @@ TEST_F(ReadmePictures, DISABLED_Heatmap) {
 TEST_F(ReadmePictures, DISABLED_Plots) {
   keep(pane("left", "cpu", "kd-sah") + pane("right", "cpu", "bvh-median", "refit") +
            "[measure]\nslot_s = 1.5\nidle_s = 0.6\n",
-       "[layout]\nleft = false\nright = false\nplots_share = 0.6\n");
-  start(with_model("wave"), "1400x900");
+       "[layout]\nleft = false\nright = false\nplots_share = 0.55\n");
+  start(with_model("wave"), "1600x760");
   measure(20.0);
   person().choose({"pane.0.structure", "pane.0.structure.grid-exact"});
+  person().move(person().see("menu.frames").x - 300, 2);
   std::this_thread::sleep_for(std::chrono::seconds(25));
+  const Widget title = person().see("power.title");
+  const Widget status = person().see("status.text");
   const Screenshot shot = person().look();
-  save(shot, "plots");
+  save(shot, "plots", {0, title.y - 8, shot.width(), status.y - title.y});
   person().key("m");
   close();
 }
