@@ -125,22 +125,27 @@ std::string ConvergenceLog::verdict(Seconds now) const {
                      outlook_.words.empty() ? "too little was seen" : outlook_.words);
 }
 
+energy::ConvergenceRow convergence_row(const energy::ConvergencePoint& point,
+                                       const std::vector<energy::KeyValue>& configuration) {
+  energy::ConvergenceRow row;
+  row.configuration = configuration;
+  row.elapsed = point.elapsed;
+  row.quantity = std::string(energy::to_string(point.quantity));
+  row.mean = point.mean;
+  row.ci95 = point.half_width;
+  row.relative_ci95 = point.relative;
+  row.effective_samples = point.effective_samples;
+  row.allan_deviation = point.allan_deviation;
+  row.allan_window = point.allan_window;
+  row.drift_per_s = point.drift_per_second;
+  return row;
+}
+
 std::vector<energy::ConvergenceRow> ConvergenceLog::rows(
     const std::vector<energy::KeyValue>& configuration) const {
   std::vector<energy::ConvergenceRow> rows;
   for (const energy::ConvergencePoint& point : tracker_.points()) {
-    energy::ConvergenceRow row;
-    row.configuration = configuration;
-    row.elapsed = point.elapsed;
-    row.quantity = std::string(energy::to_string(point.quantity));
-    row.mean = point.mean;
-    row.ci95 = point.half_width;
-    row.relative_ci95 = point.relative;
-    row.effective_samples = point.effective_samples;
-    row.allan_deviation = point.allan_deviation;
-    row.drift_per_s = point.drift_per_second;
-    if (point.allan_window) row.allan_window = *point.allan_window;
-    rows.push_back(std::move(row));
+    rows.push_back(convergence_row(point, configuration));
   }
   return rows;
 }

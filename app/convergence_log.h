@@ -33,6 +33,10 @@ class TotalEnergy {
   bool first_ = true;
 };
 
+/// A point of a figure's history as a row of convergence.csv.
+energy::ConvergenceRow convergence_row(const energy::ConvergencePoint& point,
+                                       const std::vector<energy::KeyValue>& configuration);
+
 /// How well the figures of one configuration are known while it is measured: rows of
 /// convergence.csv, and the stop rule of a plan with `until`.
 class ConvergenceLog {

@@ -20,8 +20,9 @@ struct PlotStates {
   Charts now;
   Charts session;
   BarState comparison;
-  std::string session_folder;  ///< whose charts `session` and `comparison` are
-  std::string csv_file;        ///< as it is typed to save the bars
+  bool comparison_table = false;  ///< where chart and table do not both have room
+  std::string session_folder;     ///< whose charts `session` and `comparison` are
+  std::string csv_file;           ///< as it is typed to save the bars
 };
 
 }  // namespace encore::ui

@@ -167,7 +167,8 @@ struct PhaseFigure {
 /// One point of error against run time.
 struct ErrorPoint {
   double elapsed_s = 0.0;
-  double relative = 0.0;  ///< half-width of the 95 % interval over the mean
+  double relative = 0.0;            ///< half-width of the 95 % interval over the mean
+  std::optional<double> samples{};  ///< independent ones that it rests on, where that is known
 };
 
 /// What one configuration has cost so far.

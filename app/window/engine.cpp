@@ -334,7 +334,10 @@ void Engine::apply(ui::UiState& state, double now_s) {
   if (state.measuring && measure.stop_at_target && !configurations_.empty()) {
     const auto reached = [&measure](const ui::ConfigurationView& one) {
       const auto& errors = one.joules_error.empty() ? one.time_error : one.joules_error;
-      return !errors.empty() && errors.back().relative * 100.0 <= double(measure.target_percent);
+      // An interval of few samples may be narrow by chance.
+      constexpr double kLeastSamples = 40.0;
+      return !errors.empty() && errors.back().samples.value_or(0.0) >= kLeastSamples &&
+             errors.back().relative * 100.0 <= double(measure.target_percent);
     };
     if (std::all_of(configurations_.begin(), configurations_.end(), reached)) {
       state.measuring = false;

@@ -1,5 +1,6 @@
 #include "app/window/figures_view.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,7 +48,7 @@ void add_errors(const std::vector<energy::ConvergenceRow>& rows,
                 const std::vector<energy::KeyValue>& configuration, ui::ConfigurationView& view) {
   for (const energy::ConvergenceRow& row : rows) {
     if (row.configuration != configuration || !row.relative_ci95) continue;
-    const ui::ErrorPoint point{row.elapsed.value, *row.relative_ci95};
+    const ui::ErrorPoint point{row.elapsed.value, *row.relative_ci95, row.effective_samples};
     if (row.quantity == "time_per_operation") view.time_error.push_back(point);
     if (row.quantity == "joules_per_operation") view.joules_error.push_back(point);
   }
@@ -70,58 +71,63 @@ ui::ConfigurationView view_of(const energy::SummaryRow& summary, const Configura
   return view;
 }
 
-std::vector<std::string> parts_of(const std::string& label) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t end = 0; end != std::string::npos; begin = end + 2) {
-    end = label.find(", ", begin);
-    parts.push_back(label.substr(begin, end == std::string::npos ? end : end - begin));
+/// What a part of a configuration says to people; width and height are one.
+std::string word_of(const std::vector<energy::KeyValue>& configuration, std::size_t i) {
+  const energy::KeyValue& part = configuration[i];
+  if (part.value.empty() || part.key == "height") return {};
+  if (part.key == "width" && i + 1 < configuration.size()) {
+    return part.value + "x" + configuration[i + 1].value;
   }
-  return parts;
+  if (part.key == "triangles") return part.value + " triangles";
+  if (part.key == "repeat") return "repeat " + part.value;
+  return part.value;
 }
 
 }  // namespace
 
-std::vector<std::string> short_labels(const std::vector<std::string>& labels) {
-  if (labels.size() < 2) return labels;
-  std::vector<std::vector<std::string>> all;
-  for (const std::string& label : labels) all.push_back(parts_of(label));
-  const std::size_t count = all.front().size();
-  std::vector<bool> differs(count, false);
-  for (const auto& parts : all) {
-    if (parts.size() != count) return labels;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (parts[i] != all.front()[i]) differs[i] = true;
+std::vector<std::string> short_labels(
+    const std::vector<std::vector<energy::KeyValue>>& configurations) {
+  std::vector<std::string> labels;
+  if (configurations.empty()) return labels;
+  const auto& first = configurations.front();
+  const auto differs = [&](std::size_t i) {
+    return std::any_of(configurations.begin(), configurations.end(), [&](const auto& one) {
+      return i < one.size() && one[i].value != first[i].value;
+    });
+  };
+  for (const auto& configuration : configurations) {
+    std::string label;
+    for (std::size_t i = 0; i < configuration.size() && i < first.size(); ++i) {
+      const std::string& key = configuration[i].key;
+      const bool telling = key == "structure" || key == "device";
+      const bool size = key == "width" && i + 1 < first.size() && differs(i + 1);
+      if (!telling && !size && !differs(i)) continue;
+      const std::string word = word_of(configuration, i);
+      if (word.empty()) continue;
+      if (!label.empty()) label += ", ";
+      label += word;
     }
+    labels.push_back(std::move(label));
   }
-  std::vector<std::string> result;
-  for (std::size_t label = 0; label < labels.size(); ++label) {
-    std::string text;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!differs[i]) continue;
-      if (!text.empty()) text += ", ";
-      text += all[label][i];
-    }
-    result.push_back(text.empty() ? labels[label] : text);
-  }
-  return result;
+  return labels;
 }
 
 namespace {
 
 /// Where several configurations are shown together, what all have in common need not be said.
-template <class LabelledView>
-void shorten(std::vector<LabelledView>& views) {
-  std::vector<std::string> labels;
-  for (const LabelledView& view : views) labels.push_back(view.label);
-  labels = short_labels(labels);
-  for (std::size_t i = 0; i < views.size(); ++i) views[i].label = labels[i];
+void shorten(const std::vector<std::vector<energy::KeyValue>>& configurations,
+             std::vector<ui::ConfigurationView>& views) {
+  const std::vector<std::string> labels = short_labels(configurations);
+  for (std::size_t i = 0; i < views.size() && i < labels.size(); ++i) {
+    if (!labels[i].empty()) views[i].label = labels[i];
+  }
 }
 
 }  // namespace
 
 std::vector<ui::ConfigurationView> views_of(const Figures& figures) {
   std::vector<ui::ConfigurationView> views;
+  std::vector<std::vector<energy::KeyValue>> configurations;
   for (const LiveFigures& live : figures.configurations) {
     const auto bars = bars_of({live.summary}, live.phases, live.energy);
     if (bars.empty()) continue;
@@ -131,20 +137,23 @@ std::vector<ui::ConfigurationView> views_of(const Figures& figures) {
     view.notes = live.notes;
     add_errors(live.convergence, live.configuration, view);
     views.push_back(std::move(view));
+    configurations.push_back(live.configuration);
   }
-  shorten(views);
+  shorten(configurations, views);
   return views;
 }
 
 std::vector<ui::ConfigurationView> views_of(const OpenedSession& session) {
   std::vector<ui::ConfigurationView> views;
+  std::vector<std::vector<energy::KeyValue>> configurations;
   const auto& summaries = session.session.summaries;
   for (std::size_t i = 0; i < session.bars.size() && i < summaries.size(); ++i) {
     ui::ConfigurationView view = view_of(summaries[i], session.bars[i]);
     add_errors(session.session.convergence, summaries[i].configuration, view);
     views.push_back(std::move(view));
+    configurations.push_back(summaries[i].configuration);
   }
-  shorten(views);
+  shorten(configurations, views);
   return views;
 }
 
@@ -173,7 +182,6 @@ std::vector<ui::ChangeView> views_of(const OpenedComparison& comparison) {
     }
     views.push_back(std::move(view));
   }
-  shorten(views);
   return views;
 }
 

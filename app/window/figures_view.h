@@ -13,9 +13,10 @@ namespace encore::app {
 std::vector<ui::ConfigurationView> views_of(const Figures& figures);
 /// Those of a session that was opened.
 std::vector<ui::ConfigurationView> views_of(const OpenedSession& session);
-/// Names of several configurations ("toys, kd-sah, cpu") without the parts that all of them share;
-/// as they are where there is one, or where they do not have the same parts.
-std::vector<std::string> short_labels(const std::vector<std::string>& labels);
+/// Names of configurations that are shown together: structure and device ("kd-sah, cpu"), and what
+/// else is not the same in all of them. All have the same keys in the same order.
+std::vector<std::string> short_labels(
+    const std::vector<std::vector<energy::KeyValue>>& configurations);
 /// What differs between two sessions.
 std::vector<ui::ChangeView> views_of(const OpenedComparison& comparison);
 

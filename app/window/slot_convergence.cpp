@@ -1,5 +1,7 @@
 #include "app/window/slot_convergence.h"
 
+#include "app/convergence_log.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -23,22 +25,6 @@ std::optional<energy::Seconds> reached_by(const PowerSet& power) {
 
 bool has_energy(const SlotRow& row) {
   return row.power && row.power->sampler && !row.power->total.empty();
-}
-
-energy::ConvergenceRow row_of(const energy::ConvergencePoint& point,
-                              const std::vector<energy::KeyValue>& configuration) {
-  energy::ConvergenceRow row;
-  row.configuration = configuration;
-  row.elapsed = point.elapsed;
-  row.quantity = std::string(energy::to_string(point.quantity));
-  row.mean = point.mean;
-  row.ci95 = point.half_width;
-  row.relative_ci95 = point.relative;
-  row.effective_samples = point.effective_samples;
-  row.allan_deviation = point.allan_deviation;
-  row.allan_window = point.allan_window;
-  row.drift_per_s = point.drift_per_second;
-  return row;
 }
 
 }  // namespace
@@ -87,12 +73,12 @@ std::vector<energy::ConvergenceRow> SlotConvergence::rows(
     const std::vector<energy::KeyValue>& configuration) const {
   std::vector<energy::ConvergenceRow> rows;
   if (time_) {
-    for (const auto& point : time_->points()) rows.push_back(row_of(point, configuration));
+    for (const auto& point : time_->points()) rows.push_back(convergence_row(point, configuration));
   }
   if (energy_) {
     for (const auto& point : energy_->points()) {
       const bool time = point.quantity == energy::ConvergenceQuantity::time_per_operation;
-      if (!time) rows.push_back(row_of(point, configuration));
+      if (!time) rows.push_back(convergence_row(point, configuration));
     }
   }
   std::stable_sort(rows.begin(), rows.end(),

@@ -8,13 +8,20 @@ namespace {
 
 using Labels = std::vector<std::string>;
 
-TEST(ShortLabels, LeaveOutWhatAllShare) {
-  EXPECT_EQ(short_labels({"toys, kd-sah, cpu, 256x256", "toys, bvh-median, gpu, 256x256"}),
-            (Labels{"kd-sah, cpu", "bvh-median, gpu"}));
-  EXPECT_EQ(short_labels({"toys, kd-sah", "toys, bvh-median, gpu"}),
-            (Labels{"toys, kd-sah", "toys, bvh-median, gpu"}));
-  EXPECT_EQ(short_labels({"toys, kd-sah"}), Labels{"toys, kd-sah"});
-  EXPECT_EQ(short_labels({"a, b", "a, b"}), (Labels{"a, b", "a, b"}));
+TEST(ShortLabels, LeaveOutWhatAllShareButStructureAndDevice) {
+  const auto configuration = [](const char* device, const char* structure, const char* policy,
+                                const char* height, const char* update_case) {
+    return std::vector<energy::KeyValue>{
+        {"scene", "toys"}, {"device", device}, {"structure", structure},    {"policy", policy},
+        {"width", "256"},  {"height", height}, {"update_case", update_case}};
+  };
+  const auto kd = configuration("cpu", "kd-sah", "rebuild", "256", "");
+  const auto bvh = configuration("gpu", "bvh-median", "rebuild", "256", "real");
+  EXPECT_EQ(short_labels({kd, bvh}), (Labels{"cpu, kd-sah", "gpu, bvh-median, real"}));
+  EXPECT_EQ(short_labels({kd}), Labels{"cpu, kd-sah"});
+  const auto tall = configuration("cpu", "kd-sah", "refit", "512", "");
+  EXPECT_EQ(short_labels({kd, tall}),
+            (Labels{"cpu, kd-sah, rebuild, 256x256", "cpu, kd-sah, refit, 256x512"}));
   EXPECT_EQ(short_labels({}), Labels{});
 }
 

@@ -71,6 +71,37 @@ TEST_F(Column, TwoStructuresStandSideBySide) {
   EXPECT_FALSE(find("statistics.references.other"));
 }
 
+TEST_F(Column, TwoStructuresFitANarrowColumn) {
+  const Built other(accel::StructureKind::grid_exact);
+  other.fill(view_.panes[1]);
+  state_.settings.panes[1].structure = accel::default_spec(accel::StructureKind::grid_exact);
+  accel::BuildStats many = *view_.panes[0].stats;
+  many.allocations = 1'087'716'123;
+  view_.panes[0].stats = std::make_shared<const accel::BuildStats>(many);
+  const float width = 19.0F * ImGui::GetIO().Fonts->Fonts[0]->FontSize;
+  draw_ = [this, width] {
+    draw_structure_column({0.0F, 0.0F, width, 860.0F}, view_, state_, commands_);
+  };
+  frames(3);
+  EXPECT_EQ(shown("statistics.compared"), "CPU bvh-median, and GPU grid-exact against it");
+  EXPECT_EQ(shown("statistics.triangles.value"), "11,141");
+  EXPECT_EQ(shown("statistics.triangles.difference"), "same");
+  EXPECT_EQ(shown("statistics.allocations.value"), "1.09 G") << "shorter, not cut";
+  EXPECT_EQ(shown("statistics.nodes.difference"), "–") << "a grid has none";
+  EXPECT_EQ(shown("statistics.cells.value"), "–");
+  EXPECT_NE(shown("statistics.cells.other"), "not there") << "in the place of the difference";
+  for (const MappedWidget& widget : widget_map()) {
+    if (!widget.name.starts_with("statistics.")) continue;
+    EXPECT_LE(widget.x + widget.width, width) << widget.name;
+    if (!widget.name.ends_with(".value")) continue;
+    const auto difference = find(widget.name.substr(0, widget.name.size() - 5) + "difference");
+    if (difference) {
+      EXPECT_LE(widget.x + widget.width, difference->x) << widget.name;
+    }
+    EXPECT_EQ(widget.state.find("…"), std::string::npos) << widget.name << " " << widget.state;
+  }
+}
+
 TEST_F(Column, AMissingStructureSaysSo) {
   view_.panes[0] = PaneView{};
   frames(2);

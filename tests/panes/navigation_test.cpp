@@ -1,10 +1,14 @@
 // The mouse moves the camera by scene/camera_motion.h, in both panes alike, and says so while it
 // does.
 #include "scene/camera_motion.h"
+#include "scene/scene_info.h"
 #include "window.h"
+
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace encore::ui::test {
 namespace {
@@ -146,18 +150,68 @@ TEST_F(Navigation, BothPanesMoveTheSameCamera) {
   EXPECT_EQ(state_.camera, left);
 }
 
+/// Where a point lies in the picture of a camera, in half heights from its middle.
+std::pair<double, double> seen_at(const scene::Camera& camera, const glm::vec3& point) {
+  const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+  const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
+  const glm::vec3 up = glm::cross(right, forward);
+  const glm::vec3 to = point - camera.eye;
+  const double depth = double(glm::dot(to, forward));
+  EXPECT_GT(depth, 0.0);
+  const double half = std::tan(double(camera.vertical_fov_degrees) * std::numbers::pi / 360.0);
+  return {double(glm::dot(to, right)) / depth / half, double(glm::dot(to, up)) / depth / half};
+}
+
+TEST_F(Navigation, TheFreeViewShowsTheWholeFromTheSideAndAbove) {
+  draw_ = [this] { draw_structure_view(kPane, view_, state_, commands_); };
+  frames(2);
+  EXPECT_FALSE(state_.free_camera) << "it is not known yet what there is to see";
+  EXPECT_NE(shown("structure_view.reason"), "not there");
+  auto info = std::make_shared<scene::SceneInfo>();
+  info->bounds = {{-30.0F, 2.0F, -8.0F}, {-6.0F, 9.0F, 30.0F}};
+  view_.scene.info = info;
+  frames(2);
+  ASSERT_TRUE(state_.free_camera);
+  const scene::Camera first = *state_.free_camera;
+  const UiState::Area area = state_.picture_areas[kPaneCount];
+  const double aspect = double(area.width) / double(area.height);
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto& box = info->bounds;
+    const glm::vec3 point{(corner & 1) != 0 ? box.max.x : box.min.x,
+                          (corner & 2) != 0 ? box.max.y : box.min.y,
+                          (corner & 4) != 0 ? box.max.z : box.min.z};
+    const auto [x, y] = seen_at(first, point);
+    EXPECT_LT(std::abs(x), aspect) << "corner " << corner;
+    EXPECT_LT(std::abs(y), 1.0) << "corner " << corner;
+  }
+  // The panes' camera looks along -z: turned by 35 degrees and raised by 20.
+  const glm::vec3 from = glm::normalize(first.eye - first.target);
+  EXPECT_NEAR(std::asin(double(from.y)) * 180.0 / std::numbers::pi, 20.0, 0.1);
+  EXPECT_NEAR(std::abs(std::atan2(double(from.x), double(from.z))) * 180.0 / std::numbers::pi, 35.0,
+              0.1);
+  // Moved away, and back by the button.
+  state_.free_camera = scene::dolly(first, 7.0);
+  frames(2);
+  EXPECT_NE(*state_.free_camera, first);
+  click("structure_view.reset");
+  frames(2);
+  EXPECT_EQ(*state_.free_camera, first);
+}
+
 TEST_F(Navigation, TheFreeViewHasACameraOfItsOwn) {
   fill_picture(view_.structure_view);
+  const Built built(accel::StructureKind::bvh_median);
+  built.fill(view_.panes[0]);
   draw_ = [this] { draw_structure_view(kPane, view_, state_, commands_); };
   EXPECT_FALSE(state_.free_camera);
   frames(2);
   ASSERT_TRUE(state_.free_camera);
-  EXPECT_EQ(*state_.free_camera, state_.camera);
+  const scene::Camera placed = *state_.free_camera;
   EXPECT_GT(state_.picture_areas[kPaneCount].width, 0);
   const scene::Camera before = state_.camera;
   const MappedWidget area = find("structure_view.picture").value_or(MappedWidget{});
   drag(0, area.x + 50.0F, area.y + 50.0F, area.x + 90.0F, area.y + 50.0F);
-  EXPECT_NE(*state_.free_camera, before);
+  EXPECT_NE(*state_.free_camera, placed);
   EXPECT_EQ(state_.camera, before);
   click(area.x + area.width * 0.5F + 1.0F, area.y + area.height * 0.25F + 1.0F);
   const auto picked = asked<PickNode>();

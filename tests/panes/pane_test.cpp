@@ -60,10 +60,38 @@ TEST_F(Pane, HoverIsToldOnceAPixel) {
   EXPECT_EQ(asked<HoverPixel>()[0].y, 20);
   move(area.x + pixel * 11.5F, area.y + pixel * 20.5F);
   EXPECT_EQ(asked<HoverPixel>().size(), 2U);
-  // Away, and back to the same pixel.
+  // Away, which is told once, and back to the same pixel.
   move(2.0F, 2.0F);
+  frames(3);
+  ASSERT_EQ(asked<HoverPixel>().size(), 3U);
+  EXPECT_EQ(asked<HoverPixel>()[2].pane, 0U);
+  EXPECT_EQ(asked<HoverPixel>()[2].x, -1);
+  EXPECT_EQ(asked<HoverPixel>()[2].y, -1);
   move(area.x + pixel * 11.5F, area.y + pixel * 20.5F);
-  EXPECT_EQ(asked<HoverPixel>().size(), 3U);
+  EXPECT_EQ(asked<HoverPixel>().size(), 4U);
+}
+
+TEST_F(Pane, ThePaneThatTheMouseHasLeftIsToldBeforeTheNext) {
+  constexpr Rect kLeft{0.0F, 20.0F, 600.0F, 500.0F};
+  constexpr Rect kRight{610.0F, 20.0F, 600.0F, 500.0F};
+  draw_ = [&] {
+    draw_pane(0, kLeft, view_, state_, commands_);
+    draw_pane(1, kRight, view_, state_, commands_);
+  };
+  frames(2);
+  move(900.0F, 300.0F);
+  move(300.0F, 300.0F);
+  const auto told = asked<HoverPixel>();
+  ASSERT_EQ(told.size(), 3U);
+  EXPECT_EQ(told[1].pane, 1U);
+  EXPECT_EQ(told[1].x, -1);
+  EXPECT_EQ(told[2].pane, 0U);
+  EXPECT_GE(told[2].x, 0);
+  // A picture that goes away is left, too.
+  view_.panes[0].texture = 0;
+  frames(2);
+  ASSERT_EQ(asked<HoverPixel>().size(), 4U);
+  EXPECT_EQ(asked<HoverPixel>()[3].x, -1);
 }
 
 TEST_F(Pane, HoverBoxTellsWhatIsKnown) {
@@ -133,14 +161,6 @@ TEST_F(Pane, GoesOnAfterCancelAndFailure) {
   EXPECT_EQ(asked<Rebuild>()[1].pane, 0U);
 }
 
-TEST_F(Pane, SwitchesOn) {
-  state_.settings.panes[0].device = PaneDevice::off;
-  frames(2);
-  EXPECT_FALSE(find("pane.0.picture"));
-  click("pane.0.switch_on");
-  EXPECT_EQ(state_.settings.panes[0].device, PaneDevice::cpu);
-}
-
 TEST_F(Pane, WaitsForTheSceneWithWords) {
   view_.panes[0].state = PaneState::waiting;
   view_.panes[0].texture = 0;
@@ -175,6 +195,54 @@ TEST_F(Pane, FiguresOfTheLastFrame) {
   EXPECT_EQ(shown("pane.0.joules"), "12.30 ±0.40 mJ a frame");
   EXPECT_EQ(shown("pane.0.badge"), "measured");
   EXPECT_EQ(shown("pane.0.rays"), "2 Mrays/s");
+}
+
+TEST_F(Pane, NarrowPanesKeepWhatMattersMost) {
+  PaneView& pane = view_.panes[0];
+  pane.frame = FrameFigures{};
+  pane.frame->render_s = 0.0276;
+  pane.frame->rays = 91'234;
+  pane.frames_per_s = 36.2;
+  pane.joules_per_frame = {0.0123, 0.0004, {energy::Origin::measured, "RAPL package 0"}};
+  view_.measure.measuring = true;
+  float width = 0.0F;
+  draw_ = [&] { draw_pane(0, {0.0F, 0.0F, width, 500.0F}, view_, state_, commands_); };
+  // Widths in ems of panes in a window of 1280 pixels: two of them, three of them.
+  const float em = ImGui::GetIO().Fonts->Fonts[0]->FontSize;
+  for (const float ems : {23.6F, 15.6F}) {
+    width = ems * em;
+    for (const bool mine : {true, false}) {
+      pane.my_slot = mine;
+      frames(2);
+      for (const char* name : {"pane.0.ms", "pane.0.joules", "pane.0.badge", "pane.0.rays",
+                               "pane.0.passing", "pane.0.structure", "pane.0.content"}) {
+        const auto widget = find(name);
+        ASSERT_TRUE(widget) << name << " at " << ems << " em";
+        EXPECT_LE(widget->x + widget->width, width) << name << " at " << ems << " em";
+      }
+      const auto passing = shown("pane.0.passing");
+      EXPECT_EQ(passing.find("…"), std::string::npos) << passing;
+      const auto rays = find("pane.0.rays");
+      const auto slot = find("pane.0.passing");
+      EXPECT_TRUE(rays->y + rays->height <= slot->y || rays->x + rays->width <= slot->x);
+    }
+  }
+  EXPECT_EQ(shown("pane.0.ms"), "27.6 ms");
+  EXPECT_EQ(shown("pane.0.joules"), "12.3 mJ");
+  EXPECT_EQ(shown("pane.0.rays"), "3.31 Mrays/s");
+}
+
+TEST_F(Pane, ContentStaysToBeChosenWithoutRoomForItsWord) {
+  draw_ = [&] { draw_pane(0, {0.0F, 0.0F, 210.0F, 500.0F}, view_, state_, commands_); };
+  frames(2);
+  const auto content = find("pane.0.content");
+  ASSERT_TRUE(content);
+  EXPECT_EQ(content->state, "picture") << "the map has the word, the screen the arrow";
+  EXPECT_LE(content->x + content->width, 210.0F);
+  click("pane.0.content");
+  frames(2);
+  click("pane.0.content.heatmap");
+  EXPECT_EQ(state_.settings.panes[0].content, PaneContent::heatmap);
 }
 
 TEST_F(Pane, TellsThatItRefinesOrWhoseSlotItIs) {

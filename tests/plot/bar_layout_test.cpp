@@ -182,13 +182,50 @@ TEST(BarLayout, LabelsBreakAndShorten) {
   };
   EXPECT_EQ(fit("bvh-sah", 100.0F, 2).lines, (std::vector<std::string>{"bvh-sah"}));
   EXPECT_EQ(fit("bvh-sah / cpu", 60.0F, 2).lines, (std::vector<std::string>{"bvh-sah", "/ cpu"}));
-  const PlacedLabel cut = fit("abcdefghijklmnop", 56.0F, 2);
-  EXPECT_EQ(cut.lines, (std::vector<std::string>{"abcdef.."}));
+  const PlacedLabel cut = fit("abcdefghijklmnop", 63.0F, 2);
+  EXPECT_EQ(cut.lines, (std::vector<std::string>{"abcdef\xE2\x80\xA6"}));
   EXPECT_TRUE(cut.shortened);
   EXPECT_TRUE(fit("", 50.0F, 2).lines.empty());
   // No half characters.
-  EXPECT_EQ(fit("\xC2\xB5\xC2\xB5\xC2\xB5", 28.0F, 1).lines[0], "\xC2\xB5..");
+  EXPECT_EQ(fit("\xC2\xB5\xC2\xB5\xC2\xB5", 40.0F, 1).lines[0], "\xC2\xB5\xE2\x80\xA6");
   EXPECT_TRUE(layout({}).bars.empty());
+}
+
+TEST(BarLayout, BarsOfBothUnitsStandOnOneLine) {
+  BarData data;
+  Bar joules{.name = "energy", .unit = "J", .half_width = 9.0, .parts = {part("a", 5.0)}};
+  Bar seconds{.name = "time", .unit = "s", .half_width = {}, .parts = {part("a", 0.1)}};
+  data.groups = {{"x", {joules, seconds}}};
+  const PlotRect area{0.0F, 0.0F, 400.0F, 200.0F};
+  const auto measure = [](std::string_view text) { return 8.0F * static_cast<float>(text.size()); };
+  const auto zero = [&](const BarLayout& layout, std::size_t axis) {
+    return axis_position(layout.axes[axis], 0.0);
+  };
+  BarLayout layout = layout_bars(data, BarMode::absolute, area, 0.0F, {}, measure);
+  EXPECT_EQ(layout.axes[0].low, 0.0) << "an interval takes no cost below nothing";
+  data.groups[0].bars[0].parts.push_back(part("rest", -2.0));
+  layout = layout_bars(data, BarMode::absolute, area, 0.0F, {}, measure);
+  EXPECT_LT(layout.axes[0].low, 0.0);
+  EXPECT_NEAR(zero(layout, 0), zero(layout, 1), 1e-9);
+}
+
+TEST(BarLayout, GroupsAreWideEnoughForTheirLabels) {
+  const auto measure = [](std::string_view text) { return 8.0F * static_cast<float>(text.size()); };
+  EXPECT_FLOAT_EQ(two_line_width("grid 128x128", measure), 8.0F * 7.0F);
+  EXPECT_FLOAT_EQ(two_line_width("grid", measure), 8.0F * 4.0F);
+  BarData data;
+  for (int i = 0; i < 8; ++i) {
+    data.groups.push_back(
+        {"cpu bvh-median, 128x128",
+         {{.name = "t", .unit = "s", .half_width = {}, .parts = {part("a", 1.0)}}}});
+  }
+  BarSizes sizes;
+  sizes.most_group = 200.0F;
+  const BarLayout layout =
+      layout_bars(data, BarMode::absolute, {0.0F, 0.0F, 400.0F, 200.0F}, 0.0F, sizes, measure);
+  ASSERT_FALSE(layout.labels.empty());
+  for (const PlacedLabel& label : layout.labels) EXPECT_FALSE(label.shortened);
+  EXPECT_GT(layout.content_width, 400.0F) << "the others are reached by scrolling";
 }
 
 }  // namespace

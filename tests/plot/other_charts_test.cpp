@@ -3,6 +3,7 @@
 #include "ui/plot/error_chart.h"
 #include "ui/plot/stacked_bars.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -144,6 +145,58 @@ TEST_F(Charts, ErrorsAreHoveredZoomedAndFitted) {
   }
   draw();
   EXPECT_DOUBLE_EQ(state.x.low, fitted.low);
+}
+
+TEST_F(Charts, ALegendLeavesTheChartItsHeight) {
+  ErrorData data;
+  data.series.resize(40);
+  for (std::size_t i = 0; i < data.series.size(); ++i) {
+    data.series[i].name = "a rather long name of configuration " + std::to_string(i);
+    data.series[i].points = {{1.0, 0.5}, {2.0, 0.3}};
+  }
+  ErrorState state;
+  for (int i = 0; i < 2; ++i) {
+    frame([&] { error_chart("errors", data, state, {390.0F, 240.0F}); });
+  }
+  EXPECT_GT(widget("errors").height, 115.0F);
+  const std::string more = widget("errors.legend_more").state;
+  EXPECT_EQ(more.front(), '+') << more;
+  mouse_at(widget("errors.legend_more"), 0.5F, 0.5F);
+  for (int i = 0; i < 2; ++i) {
+    frame([&] { error_chart("errors", data, state, {390.0F, 240.0F}); });
+  }
+  EXPECT_TRUE(tooltip_drawn()) << "it names the others";
+}
+
+TEST_F(Charts, ALegendEntryWiderThanTheChartIsShortened) {
+  ErrorData data;
+  data.series.resize(1);
+  data.series[0].name = std::string(200, 'n');
+  ErrorState state;
+  frame([&] { error_chart("errors", data, state, {390.0F, 240.0F}); });
+  const MappedWidget entry = widget("errors.legend." + data.series[0].name);
+  EXPECT_LE(entry.width, 390.0F);
+  EXPECT_GT(entry.width, 200.0F);
+}
+
+TEST_F(Charts, PartsThatNeverOccurAreNotInTheLegend) {
+  BarData data = bars(2);
+  for (BarGroup& group : data.groups) {
+    for (Bar& bar : group.bars) {
+      bar.parts.push_back({"update", PlotColor::update, 0.0, {}, {Origin::measured, "x"}});
+      bar.parts.push_back({"transfer", PlotColor::transfer, {}, {}, {Origin::unavailable, "x"}});
+    }
+  }
+  BarState state;
+  frame([&] { stacked_bars("bars", data, state); });
+  const auto drawn = [](const std::string& name) {
+    return std::any_of(widget_map().begin(), widget_map().end(),
+                       [&](const MappedWidget& one) { return one.name == name; });
+  };
+  EXPECT_TRUE(drawn("bars.legend.build"));
+  EXPECT_TRUE(drawn("bars.legend.render"));
+  EXPECT_FALSE(drawn("bars.legend.update"));
+  EXPECT_FALSE(drawn("bars.legend.transfer"));
 }
 
 TEST_F(Charts, ErrorVerticesAreBounded) {

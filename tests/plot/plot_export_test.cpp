@@ -85,13 +85,15 @@ TEST(PlotExport, MissingIsEmpty) {
   ErrorData errors;
   errors.series.resize(1);
   errors.series[0].name = "watts";
-  errors.series[0].points = {{0.5, {}}, {1.0, 0.02}};
+  errors.series[0].points = {{0.5, {}}, {1.0, 0.02, 12.5}};
   errors.series[0].provenance = {Origin::simulated, ""};
   const auto points = parse_csv(errors_csv(errors));
   ASSERT_EQ(points.size(), 3U);
   EXPECT_EQ(points[1][2], "");
   EXPECT_EQ(points[2][2], "0.02");
-  EXPECT_EQ(points[2][3], "simulated");
+  EXPECT_EQ(points[1][3], "");
+  EXPECT_EQ(points[2][3], "12.5");
+  EXPECT_EQ(points[2][4], "simulated");
 }
 
 }  // namespace

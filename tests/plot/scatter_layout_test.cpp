@@ -119,4 +119,27 @@ TEST(ScatterLayout, TheMouseFindsTheNearestPoint) {
   EXPECT_FALSE(nearest_error(placed, 100.0F, 100.0F, 5.0F));
 }
 
+TEST(ScatterLayout, OfTooFewSamplesNothingIsDrawnOrForetold) {
+  ErrorSeries series;
+  series.points = {
+      {0.1, 0.01, 2.0}, {1.0, 0.4, 8.0}, {2.0, 0.3, 20.0}, {3.0, 12.7, 2.0}, {4.0, 0.2, 30.0}};
+  EXPECT_FALSE(drawable(series.points[0]));
+  EXPECT_TRUE(drawable(series.points[1])) << "8 are enough";
+  EXPECT_TRUE(drawable({1.0, 0.4})) << "their number is not known";
+  Axis x = elapsed_axis();
+  Axis y = error_axis();
+  fit_errors({{series}, {}}, x, y);
+  EXPECT_LT(y.high, 100.0) << "the wild one counts for nothing";
+  EXPECT_GT(x.low, 0.5);
+  const auto placed = place_errors(series, x, y, {0.0F, 0.0F, 400.0F, 200.0F});
+  ASSERT_EQ(placed.size(), 3U);
+  EXPECT_FALSE(placed[1].apart);
+  EXPECT_TRUE(placed[2].apart) << "no line over what is left out";
+  EXPECT_TRUE(target_time(series, 0.01));
+  series.points.push_back({5.0, 6.0, 2.0});
+  EXPECT_EQ(last_point(series), nullptr);
+  EXPECT_FALSE(target_time(series, 0.01)) << "an older point says nothing of now";
+  EXPECT_FALSE(reference_error(series, 1.0));
+}
+
 }  // namespace

@@ -147,6 +147,25 @@ TEST_F(StripChart, ALiveStripFollowsUntilItIsMoved) {
   EXPECT_LT(state_.x.high, 140.0);
 }
 
+TEST_F(StripChart, AYoungLiveStripBeginsWithItsFirstSample) {
+  SampleHistory young;
+  for (int i = 0; i <= 120; ++i) young.add(0.1 * i, 30.0, true);
+  data_.series.resize(1);
+  data_.series[0].history = &young;
+  data_.spans.clear();
+  data_.now_s = 12.0;
+  draw();
+  EXPECT_NEAR(state_.x.low, 0.0, 1e-9) << "there is nothing before";
+  EXPECT_NEAR(state_.x.high, 20.0, 1e-9) << "whole tens of seconds";
+  data_.now_s = 17.0;
+  draw();
+  EXPECT_NEAR(state_.x.high, 20.0, 1e-9) << "the scale stays still";
+  data_.now_s = 500.0;
+  draw();
+  EXPECT_NEAR(state_.x.high - state_.x.low, 60.0, 1e-9);
+  EXPECT_GT(state_.x.high, 500.0);
+}
+
 TEST_F(StripChart, TheLegendHidesASeries) {
   draw();
   const MappedWidget entry = widget("power.legend.RAPL");

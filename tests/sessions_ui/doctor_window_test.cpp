@@ -72,6 +72,19 @@ TEST_F(Doctor, ASensorWithoutAReadingHasNoNumber) {
   EXPECT_FALSE(has_digit(copy->text)) << copy->text;
 }
 
+TEST_F(Doctor, ShowsOpenGlAsOneBlockThatBreaksItsLines) {
+  view.doctor = doctor_with_obstacles();
+  view.doctor.opengl = {"llvmpipe, OpenGL 4.5, software",
+                        std::string(400, 'x') + " " + std::string(40, 'y')};
+  settle();
+  EXPECT_EQ(state_of("doctor.opengl"), view.doctor.opengl[0] + "\n" + view.doctor.opengl[1]);
+  const MappedWidget* block = widget("doctor.opengl");
+  const MappedWidget* window = widget("doctor.window");
+  EXPECT_GT(block->height, 3.0F * ImGui::GetFontSize());
+  EXPECT_LE(block->x + block->width, window->x + window->width);
+  EXPECT_LE(block->y + block->height, window->y + window->height);
+}
+
 TEST_F(Doctor, LeadsToTheWatts) {
   click("doctor.watts");
   EXPECT_EQ(state.dialog, Dialog::energy);

@@ -10,11 +10,18 @@ using energy::Origin;
 class Plots : public PanelTest {
  protected:
   void draw() override {
+    if (strip) {  // as they lie below everything in a window of 1280 x 800
+      draw_power_plot({0.0F, 505.0F, 485.0F, 270.0F}, view, state, commands);
+      draw_bars_plot({490.0F, 505.0F, 395.0F, 270.0F}, view, state, commands);
+      draw_error_plot({890.0F, 505.0F, 390.0F, 270.0F}, view, state, commands);
+      return;
+    }
     draw_power_plot({0.0F, 30.0F, width, 300.0F}, view, state, commands);
     draw_bars_plot({0.0F, 340.0F, 0.5F * width, 400.0F}, view, state, commands);
     draw_error_plot({0.5F * width, 340.0F, 0.5F * width, 400.0F}, view, state, commands);
   }
   float width = 1600.0F;
+  bool strip = false;
 };
 
 TEST_F(Plots, WithoutWattsSaysWhyAndOffersTheWaysOut) {
@@ -136,7 +143,7 @@ TEST_F(Plots, BarsAreNormalisedByTheSwitch) {
   settle();
   EXPECT_EQ(state.plots.now.bars.mode, BarMode::percent_of_largest);
   EXPECT_EQ(state_of("bars.normalised"), "on");
-  click("bars.absolute");
+  click("bars.normalised");
   EXPECT_FALSE(state.bars_normalised);
   settle();
   EXPECT_EQ(state.plots.now.bars.mode, BarMode::absolute);
@@ -213,7 +220,7 @@ TEST_F(Plots, TheEstimateIsSaidToBeOne) {
   state.settings.measure.target_percent = 1.0F;
   settle();
   // The energy's last point is 0.2 / sqrt(40) after 10 s: 1 % takes 10 times as long.
-  EXPECT_EQ(state_of("error.estimate"), "1 % in about 90.0 s of run time (estimate)");
+  EXPECT_EQ(state_of("error.estimate"), "1 % in about 90.0 s");
   state.settings.measure.target_percent = 50.0F;
   settle();
   EXPECT_EQ(state_of("error.estimate"), "50 % reached");
@@ -221,6 +228,67 @@ TEST_F(Plots, TheEstimateIsSaidToBeOne) {
   view.plots.configurations[0].joules_error.clear();
   settle();
   EXPECT_EQ(widget("error.estimate"), nullptr) << "it cannot be told";
+}
+
+TEST_F(Plots, OfTooFewSamplesThereIsNoEstimate) {
+  view.plots.configurations = {configuration("cpu bvh", Origin::measured)};
+  view.plots.configurations[0].joules_error.back().samples = 3.0;
+  settle();
+  EXPECT_EQ(widget("error.estimate"), nullptr) << "the older, narrower interval holds no more";
+  view.plots.configurations[0].joules_error.back().samples = 30.0;
+  settle();
+  EXPECT_EQ(state_of("error.estimate"), "1 % in about 90.0 s");
+}
+
+TEST_F(Plots, OneLegendEntryAConfigurationAndOneAQuantity) {
+  view.plots.configurations = {configuration("cpu", Origin::measured),
+                               configuration("gpu", Origin::measured, 2.0)};
+  settle();
+  for (const char* name : {"cpu", "gpu", "time", "energy"}) {
+    EXPECT_EQ(state_of(std::string("error.chart.legend.") + name), "on") << name;
+  }
+  EXPECT_EQ(widget("error.chart.legend.cpu, time"), nullptr);
+  click("error.chart.legend.energy");
+  settle();
+  EXPECT_EQ(state_of("error.chart.legend.energy"), "off");
+  EXPECT_EQ(state_of("error.chart.legend.cpu"), "on");
+}
+
+TEST_F(Plots, InTheLowStripTheChartsKeepTheirHeight) {
+  strip = true;
+  view.plots.no_power = kNoSensor;
+  view.plots.configurations = {configuration("cpu", Origin::unavailable),
+                               configuration("gpu", Origin::unavailable)};
+  settle();
+  const float title = widget("bars.title")->y;
+  for (const char* name : {"bars.normalised", "bars.copy_csv", "bars.save_csv", "bars.save_png"}) {
+    EXPECT_EQ(widget(name)->y, title) << name << " is in the title's row";
+  }
+  EXPECT_GT(widget("bars.chart")->height, 130.0F);
+  EXPECT_GT(widget("error.chart")->height, 130.0F);
+  EXPECT_EQ(widget("power.chart.legend.watts"), nullptr) << "there are no watts to tell apart";
+  EXPECT_EQ(state_of("power.problem"), kNoSensor);
+  EXPECT_GT(widget("power.problem")->height, 1.5F * ImGui::GetFontSize())
+      << "in full, on two lines";
+}
+
+TEST_F(Plots, InTheLowStripAComparisonIsAChartOrATable) {
+  strip = true;
+  view.session = compared_session();
+  state.show_session = true;
+  settle();
+  EXPECT_NE(widget("bars.chart"), nullptr);
+  EXPECT_EQ(widget("bars.changes.row.0"), nullptr);
+  click("bars.table");
+  settle();
+  EXPECT_EQ(state_of("bars.table"), "on");
+  EXPECT_EQ(widget("bars.chart"), nullptr);
+  EXPECT_EQ(state_of("bars.changes.row.0"), "cpu bvh; lower; higher");
+  strip = false;
+  width = 3200.0F;
+  settle();
+  EXPECT_NE(widget("bars.chart"), nullptr) << "there is room for both";
+  EXPECT_NE(widget("bars.changes.row.0"), nullptr);
 }
 
 TEST_F(Plots, FiftyConfigurationsLeaveRoomForTheCharts) {
@@ -238,8 +306,7 @@ TEST_F(Plots, FiftyConfigurationsLeaveRoomForTheCharts) {
     EXPECT_GT(widget("error.chart")->height, 100.0F) << wide;
     EXPECT_GT(widget("bars.chart")->height, 100.0F) << wide;
   }
-  const MappedWidget* of_pane =
-      widget("error.chart.legend.cpu bvh-median refit 512x512 number 7, time");
+  const MappedWidget* of_pane = widget("error.chart.legend.cpu bvh-median refit 512x512 number 7");
   EXPECT_NE(of_pane, nullptr) << "what the panes show now comes first\n" << widget_map_text();
   click("error.configuration");
   settle();

@@ -87,40 +87,57 @@ void draw_save(const std::string& csv, UiState& state, Commands& commands) {
   ImGui::EndPopup();
 }
 
-void draw_scale_switch(UiState& state) {
-  const std::array<PlotTool, 2> tools{{{.name = "absolute",
-                                        .label = "Absolute",
-                                        .help = "Joules and seconds as they are.",
-                                        .on = !state.bars_normalised},
-                                       {.name = "normalised",
-                                        .label = "Normalised",
-                                        .help = "In % of the largest bar of its unit.",
-                                        .on = state.bars_normalised}}};
+/// What the title row switches: the scale, and where there is room for one only, chart or table.
+void draw_switches(bool choose, UiState& state) {
+  std::vector<PlotTool> tools{{.name = "normalised",
+                               .label = "%",
+                               .help = "Bars in % of the largest one of their unit, instead of "
+                                       "joules and seconds as they are.",
+                               .on = state.bars_normalised}};
+  bool& table = state.plots.comparison_table;
+  if (choose) {
+    tools.push_back({.name = "table",
+                     .label = "Table",
+                     .help = "The figures with their intervals, instead of the chart.",
+                     .on = table});
+  }
   ImGui::SameLine();
-  if (const auto pressed = draw_tools("bars", tools)) state.bars_normalised = *pressed == 1;
+  const auto pressed = draw_tools("bars", tools);
+  if (pressed == std::size_t{0}) state.bars_normalised = !state.bars_normalised;
+  if (pressed == std::size_t{1}) table = !table;
 }
 
-/// Chart and table of a comparison: beside each other where that is wide enough.
-void draw_comparison(const BarData& data, const View& view, UiState& state) {
+/// Whether chart and table of a comparison have room beside or above each other.
+bool room_for_both(const Rect& area) {
+  const float em = ImGui::GetFontSize();
+  return area.width > 50.0F * em || area.height > 26.0F * em;
+}
+
+/// Chart and table of a comparison, or one of them.
+void draw_comparison(const BarData& data, const View& view, bool both, UiState& state) {
   const float em = ImGui::GetFontSize();
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const bool low = room.y < 16.0F * em;
-  const bool beside = room.x > (low ? 28.0F : 50.0F) * em;
-  if (!beside && low) {  // room for one: that with the intervals
+  const auto table = [&] {
     draw_changes("bars.changes", view.session.changes, state.preferences.theme, 0.0F);
+  };
+  if (!both && state.plots.comparison_table) {
+    table();
     return;
   }
-  const float rows = static_cast<float>(view.session.changes.size()) + 2.0F;
-  const float table =
-      std::min(0.45F * room.y, rows * ImGui::GetTextLineHeightWithSpacing() + 0.5F * em);
-  const ImVec2 chart = beside ? ImVec2{0.45F * room.x, room.y}
-                              : ImVec2{room.x, std::max(1.0F, room.y - table - 0.4F * em)};
+  const bool beside = both && room.x > 50.0F * em;
+  ImVec2 chart = room;
+  if (beside) chart.x = 0.45F * room.x;
+  if (both && !beside) {
+    const float rows = static_cast<float>(view.session.changes.size()) * 3.0F + 2.0F;
+    chart.y -= std::min(0.45F * room.y, rows * ImGui::GetTextLineHeightWithSpacing()) + 0.4F * em;
+  }
   BarState& bars = state.plots.comparison;
   bars.mode = state.bars_normalised ? BarMode::percent_of_largest : BarMode::absolute;
-  bars.show_differences = false;  // the table has them with their intervals
-  stacked_bars("bars.chart", data, bars, chart);
+  bars.show_differences = !both;  // else the table has them with their intervals
+  stacked_bars("bars.chart", data, bars, {std::max(1.0F, chart.x), std::max(1.0F, chart.y)});
+  if (!both) return;
   if (beside) ImGui::SameLine();
-  draw_changes("bars.changes", view.session.changes, state.preferences.theme, 0.0F);
+  table();
 }
 
 }  // namespace
@@ -132,16 +149,17 @@ void draw_bars_plot(const Rect& area, const View& view, UiState& state, Commands
     const BarData data =
         compare ? comparison_bars(view.session) : configuration_bars(shown.data.configurations);
     plot_title("bars", compare ? "A beside B" : "Costs", compare ? kCompareHelp : kHelp);
-    draw_scale_switch(state);
+    const bool both = compare && room_for_both(area);
+    draw_switches(compare && !both, state);
     const bool any = !data.groups.empty();
     const std::array<PlotTool, 3> tools{
         {{.name = "copy_csv",
-          .label = "Copy CSV",
-          .help = "Copies the bars: s and J with their intervals and provenance.",
+          .label = "Copy",
+          .help = "Copies the bars as CSV: s and J with their intervals and provenance.",
           .enabled = any},
          {.name = "save_csv",
-          .label = "Save CSV",
-          .help = "Asks for a file and writes the bars to it.",
+          .label = "CSV",
+          .help = "Asks for a file and writes the bars to it as CSV.",
           .enabled = any},
          {.name = "save_png",
           .label = "PNG",
@@ -161,7 +179,7 @@ void draw_bars_plot(const Rect& area, const View& view, UiState& state, Commands
       tooltip(problem);
     }
     if (compare) {
-      draw_comparison(data, view, state);
+      draw_comparison(data, view, both, state);
     } else {
       BarState& bars = shown.charts.bars;
       bars.mode = state.bars_normalised ? BarMode::percent_of_largest : BarMode::absolute;

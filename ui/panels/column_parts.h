@@ -36,4 +36,8 @@ std::optional<float> node_value(const PaneView& pane, std::uint32_t node);
 /// A line in the place of what is not there.
 void draw_missing(const ColumnContext& context, const char* name, const std::string& why);
 
+/// A text cut to a width with an ellipsis, by default to the room left in the line or cell; what is
+/// cut off is in its tooltip. True if it was cut.
+bool cut_text(const std::string& text, std::optional<float> width = {});
+
 }  // namespace encore::ui

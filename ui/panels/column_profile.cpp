@@ -88,8 +88,14 @@ void draw_key(const char* word, std::uint32_t color, bool first) {
   ImGui::TextUnformatted(word);
 }
 
+void draw_title(const char* title, const ThemeColors& colors) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colors.dim_text);
+  cut_text(title);
+  ImGui::PopStyleColor();
+}
+
 void draw_depths(const accel::StructureProfile& profile, const ThemeColors& colors) {
-  colored_text(colors.dim_text, "Nodes a depth, the root at the left");
+  draw_title("Nodes a depth, the root at the left", colors);
   const auto part = part_colors();
   std::vector<Bar> bars;
   for (std::size_t depth = 0; depth < profile.depths.size(); ++depth) {
@@ -120,8 +126,8 @@ std::string size_range(std::size_t i) {
 }
 
 void draw_sizes(const accel::StructureProfile& profile, bool cells, const ThemeColors& colors) {
-  colored_text(colors.dim_text, cells ? "Cells by triangles, few at the left"
-                                      : "Leaves by triangles, few at the left");
+  draw_title(cells ? "Cells by triangles, few at the left" : "Leaves by triangles, few at the left",
+             colors);
   const auto part = part_colors();
   std::vector<Bar> bars;
   for (std::size_t i = 0; i < profile.leaf_sizes.size(); ++i) {

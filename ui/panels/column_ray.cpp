@@ -48,8 +48,10 @@ void draw_summary(const ColumnContext& context, const PickView& pick) {
   note_widget("ray.summary", text);
   tooltip("Distances in world units from the eye; steps are nodes or cells that were entered.");
   if (!pick.pixel.material.empty()) {
+    const std::string material = "material " + pick.pixel.material;
     colored_text(theme_colors(context.state.preferences.theme).dim_text,
-                 "material " + pick.pixel.material);
+                 fitted(material, ImGui::GetContentRegionAvail().x));
+    tooltip(material);
   }
 }
 
@@ -77,6 +79,8 @@ void draw_buttons(const ColumnContext& context, const PickView& pick) {
   }
   const std::string at =
       fmt::format("{} of {}", count_text(context.state.ray_step + 1), count_text(count));
+  // In the next line where there is no room behind the buttons.
+  if (ImGui::CalcTextSize(at.c_str()).x > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
   ImGui::TextUnformatted(at.c_str());
   note_widget("ray.step", at);
   tooltip("The step that is shown, of all that were kept.");
@@ -85,17 +89,14 @@ void draw_buttons(const ColumnContext& context, const PickView& pick) {
 void draw_step(const ColumnContext& context, const PickView& pick, std::size_t step) {
   const bool current = step == context.state.ray_step;
   const std::string sentence = sentence_of(pick, step);
-  const std::string label =
-      fmt::format("{}. {}##{}", step + 1, sentence.empty() ? "…" : sentence, step);
-  if (ImGui::Selectable(label.c_str(), current)) {
+  const std::string all = fmt::format("{}. {}", step + 1, sentence.empty() ? "…" : sentence);
+  const std::string cut = fitted(all, ImGui::GetContentRegionAvail().x);
+  if (ImGui::Selectable(fmt::format("{}###{}", cut, step).c_str(), current)) {
     go_to(context, pick, step);
     context.state.inspect.seen_step = context.state.ray_step;
   }
   note_widget(fmt::format("ray.step.{}", step), current ? "selected" : "");
-  if (ImGui::IsItemHovered() &&
-      ImGui::GetItemRectSize().x < ImGui::CalcTextSize(label.c_str(), nullptr, true).x) {
-    tooltip(sentence);
-  }
+  if (cut != all) tooltip(all);
 }
 
 void draw_steps(const ColumnContext& context, const PickView& pick) {

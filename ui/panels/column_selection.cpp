@@ -46,12 +46,11 @@ void draw_path(const ColumnContext& context, const Selected& selected) {
 void draw_value(const char* name, const char* label, const std::string& text, const char* tip) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(label);
-  tooltip(tip);
+  if (!cut_text(label)) tooltip(tip);
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(text.c_str());
+  const bool cut = cut_text(text);
   note_widget(std::string("selection.") + name, text);
-  tooltip(tip);
+  if (!cut) tooltip(tip);
 }
 
 std::string point_text(const glm::vec3& point) {
@@ -124,6 +123,10 @@ void focus_on(const ColumnContext& context, const scene::Bounds& box) {
 
 void draw_buttons(const ColumnContext& context, const Selected& selected) {
   const auto button = [&](const char* label, const char* name, const char* tip) {
+    // In the next line where there is no room behind the last button.
+    const float width = ImGui::CalcTextSize(label).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    const bool same_line = ImGui::GetCursorPosX() > ImGui::GetCursorStartPos().x + 1.0F;
+    if (same_line && width > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
     const bool pressed = ImGui::Button(label);
     note_widget(std::string("selection.") + name);
     tooltip(tip);
@@ -161,11 +164,11 @@ void draw_triangles(const ColumnContext& context, const Selected& selected) {
   if (triangles.size() < selected.record.triangles) {
     title += fmt::format(", from {} references", count_text(selected.record.triangles));
   }
-  colored_text(colors.dim_text, title);
+  colored_text(colors.dim_text, fitted(title, ImGui::GetContentRegionAvail().x));
   note_widget("selection.list_title", title);
-  tooltip(
-      "Numbers in the scene's list of triangles, each once; of very many the first are "
-      "listed.");
+  tooltip(title +
+          ". Numbers in the scene's list of triangles, each once; of very many the first are "
+          "listed.");
   if (ImGui::BeginChild("triangles", {0.0F, 0.0F}, false, ImGuiWindowFlags_NoNav)) {
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(triangles.size()), ImGui::GetTextLineHeightWithSpacing());

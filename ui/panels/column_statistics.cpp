@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,6 +35,25 @@ struct Row {
 
 std::string whole_text(double value) {
   return count_text(static_cast<std::uint64_t>(value));
+}
+
+/// In as few signs as a narrow column has room for: "1.09 M".
+std::string brief_text(double value) {
+  constexpr std::array<const char*, 5> kLetters{"", " k", " M", " G", " T"};
+  std::size_t letter = 0;
+  while (value >= 999.5 && letter + 1 < kLetters.size()) {
+    value /= 1000.0;
+    ++letter;
+  }
+  return fmt::format("{:.3g}{}", value, kLetters.at(letter));
+}
+
+/// "696.3 KiB" as "696 KiB".
+std::string rounded_text(const std::string& text) {
+  const std::size_t end = text.find(' ');
+  if (end == std::string::npos || text.find('.') > end) return text;
+  const double number = std::strtod(text.c_str(), nullptr);
+  return fmt::format("{:.{}f}{}", number, number < 9.95 ? 1 : 0, text.substr(end));
 }
 
 std::string real_text(double value) {
@@ -165,62 +186,113 @@ std::string percent_text(double mine, double other) {
   return fmt::format("{:+.1f} %", percent);
 }
 
-void draw_cell(const Row& row, const char* column, const Value& value) {
-  ImGui::TableNextColumn();
-  const std::string text = value ? row.text(*value) : "–";
-  const float room = ImGui::GetContentRegionAvail().x;
-  const float width = ImGui::CalcTextSize(text.c_str()).x;
-  if (room > width) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
-  ImGui::TextUnformatted(text.c_str());
-  note_widget(fmt::format("statistics.{}.{}", row.name, column), text);
+/// What a pane is called beside the other one.
+std::string pane_word(const ColumnContext& context, std::size_t pane) {
+  const auto& panes = context.state.settings.panes;
+  if (panes.at(0).device == panes.at(1).device) return pane == 0 ? "left" : "right";
+  return device_title(panes.at(pane).device);
 }
 
-void draw_row(const Row& row, const PaneView& mine, const PaneView* other) {
-  const Value value = row.value(mine);
-  const Value compared = other != nullptr ? row.value(*other) : std::nullopt;
-  if (!value && !compared) return;
+std::string pane_title(const ColumnContext& context, std::size_t pane) {
+  return fmt::format("{} {}", pane_word(context, pane),
+                     accel::to_string(context.state.settings.panes.at(pane).structure.kind));
+}
+
+/// The two panes whose structures are compared; `other` is null where there is only one.
+struct Compared {
+  const PaneView& mine;
+  const PaneView* other = nullptr;
+  std::string my_title;
+  std::string other_title;
+  bool wide = false;  ///< there is room for a column of the other's own
+};
+
+std::string exact_text(const Row& row, const Value& value) {
+  return value ? row.text(*value) : "none";
+}
+
+/// At the right of its column; the exact number where there is room for it.
+void draw_cell(const Row& row, const char* column, const Value& value, const std::string& tip) {
+  ImGui::TableNextColumn();
+  std::string text = value ? row.text(*value) : "–";
+  const float room = ImGui::GetContentRegionAvail().x;
+  const auto width = [&text] { return ImGui::CalcTextSize(text.c_str()).x; };
+  const bool counted = text.find(',') != std::string::npos;
+  if (value && counted && width() > room) text = brief_text(*value);
+  if (value && width() > room) text = rounded_text(text);
+  text = fitted(text, room);
+  if (room > width()) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width());
+  ImGui::TextUnformatted(text.c_str());
+  note_widget(fmt::format("statistics.{}.{}", row.name, column), text);
+  tooltip(tip);
+}
+
+void draw_row(const Row& row, const Compared& compared) {
+  const Value mine = row.value(compared.mine);
+  const Value other = compared.other != nullptr ? row.value(*compared.other) : std::nullopt;
+  if (!mine && !other) return;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(row.label);
-  note_widget(std::string("statistics.") + row.name);
-  tooltip(row.tip);
-  draw_cell(row, "value", value);
-  if (other == nullptr) return;
-  draw_cell(row, "other", compared);
+  const float room = ImGui::GetContentRegionAvail().x;
+  const std::string label = fitted(row.label, room);
+  ImGui::TextUnformatted(label.c_str());
+  note_widget(std::string("statistics.") + row.name, label);
+  tooltip(label == row.label ? std::string(row.tip) : fmt::format("{}: {}", row.label, row.tip));
+  if (compared.other == nullptr) {
+    return draw_cell(row, "value", mine, fmt::format("{} {}", exact_text(row, mine), row.label));
+  }
+  const std::string both =
+      fmt::format("{}\n{}: {}\n{}: {}", row.label, compared.my_title, exact_text(row, mine),
+                  compared.other_title, exact_text(row, other));
+  draw_cell(row, "value", mine, both);
+  // What only the other one has stands in the place of the difference.
+  const bool only_other = !mine || (*mine == 0.0 && other && *other != 0.0);
+  if (compared.wide || only_other) draw_cell(row, "other", other, both);
+  if (only_other) return;
   ImGui::TableNextColumn();
-  if (!value || !compared) return;
-  const std::string percent = percent_text(*value, *compared);
-  ImGui::TextUnformatted(percent.c_str());
-  note_widget(fmt::format("statistics.{}.difference", row.name), percent);
-  tooltip("Of the other pane's against this one's.");
+  const std::string percent = other ? percent_text(*mine, *other) : "–";
+  const std::string cut = fitted(percent, ImGui::GetContentRegionAvail().x);
+  ImGui::TextUnformatted(cut.c_str());
+  note_widget(fmt::format("statistics.{}.difference", row.name), cut);
+  tooltip(fmt::format("{}: {} against {}.\n{}", percent, compared.other_title, compared.my_title,
+                      both));
+}
+
+void draw_head(const ColumnContext& context, std::size_t pane, const std::string& tip) {
+  ImGui::TableNextColumn();
+  const PaneSettings& settings = context.state.settings.panes.at(pane);
+  const std::string word = fitted(pane_word(context, pane), ImGui::GetContentRegionAvail().x);
+  colored_text(device_color(settings.device), word);
+  tooltip(tip);
 }
 
 void draw_table(const ColumnContext& context, const char* id, const std::vector<Row>& rows,
-                const PaneView* other) {
-  const int columns = other != nullptr ? 4 : 2;
+                const Compared& compared) {
+  const bool two = compared.other != nullptr;
+  const int columns = !two ? 2 : compared.wide ? 4 : 3;
   if (!ImGui::BeginTable(id, columns, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
     return;
   }
   const float em = ImGui::GetFontSize();
   ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, 1.4F);
-  ImGui::TableSetupColumn("mine", ImGuiTableColumnFlags_WidthStretch, 1.0F);
-  if (other != nullptr) {
-    ImGui::TableSetupColumn("other", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  if (!two || compared.wide) {
+    ImGui::TableSetupColumn("mine", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  } else {
+    ImGui::TableSetupColumn("mine", ImGuiTableColumnFlags_WidthFixed, em * 4.5F);
+  }
+  if (compared.wide) ImGui::TableSetupColumn("other", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  if (two) {
     ImGui::TableSetupColumn("difference", ImGuiTableColumnFlags_WidthFixed, em * 4.8F);
+    const std::size_t mine = context.state.inspected_pane;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    for (const std::size_t pane :
-         {context.state.inspected_pane, 1 - context.state.inspected_pane}) {
-      ImGui::TableNextColumn();
-      const PaneSettings& settings = context.state.settings.panes.at(pane);
-      const float room = ImGui::GetContentRegionAvail().x;
-      colored_text(device_color(settings.device), device_title(settings.device));
-      colored_text(device_color(settings.device),
-                   fitted(accel::to_string(settings.structure.kind), room));
-    }
-    ImGui::TableNextColumn();
+    draw_head(context, mine, compared.my_title);
+    if (compared.wide) draw_head(context, 1 - mine, compared.other_title);
+    draw_head(context, 1 - mine,
+              fmt::format("How much more or less {} has than {}.", compared.other_title,
+                          compared.my_title));
   }
-  for (const Row& row : rows) draw_row(row, context.shown(), other);
+  for (const Row& row : rows) draw_row(row, compared);
   ImGui::EndTable();
 }
 
@@ -234,13 +306,26 @@ void draw_statistics(const ColumnContext& context) {
                             ? "There is no structure yet: its figures show when it is built."
                             : shown.problem);
   }
-  const PaneView* other = compared_pane(context);
+  const std::size_t mine = context.state.inspected_pane;
+  Compared compared{shown, compared_pane(context), pane_title(context, mine),
+                    pane_title(context, 1 - mine)};
+  compared.wide =
+      compared.other != nullptr && ImGui::GetContentRegionAvail().x > ImGui::GetFontSize() * 25.0F;
   const ThemeColors& colors = theme_colors(context.state.preferences.theme);
+  if (compared.other != nullptr) {
+    const std::string text =
+        fmt::format("{}, and {} against it", compared.my_title, compared.other_title);
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    note_widget("statistics.compared", text);
+    tooltip("Values of the first, and how much more or less the other one has, in %.");
+  }
   colored_text(colors.dim_text, "Last build or update");
-  draw_table(context, "build", build_rows(), other);
+  draw_table(context, "build", build_rows(), compared);
   ImGui::Spacing();
   colored_text(colors.dim_text, "Structure");
-  draw_table(context, "shape", shape_rows(), other);
+  draw_table(context, "shape", shape_rows(), compared);
   ImGui::Spacing();
   draw_profile(context);
 }

@@ -1,5 +1,6 @@
 #include "accel/inspect/node_table.h"
 #include "ui/panels/column_parts.h"
+#include "ui/panels/shell_parts.h"
 #include "ui/panels/tree_rows.h"
 #include "ui/plot/plot_colors.h"
 #include "ui/widget_map.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace encore::ui {
 
@@ -19,7 +21,9 @@ namespace {
 /// number.
 float indent_of(const accel::NodeTable& table) {
   const float em = ImGui::GetFontSize();
-  const float room = ImGui::GetContentRegionAvail().x - em * 5.0F;
+  const std::string longest(fmt::format("{}", table.size()).size(), '0');
+  const float room =
+      ImGui::GetContentRegionAvail().x - em * 1.3F - ImGui::CalcTextSize(longest.c_str()).x;
   const auto levels = static_cast<float>(std::max(table.max_depth(), 1U));
   return std::clamp(room / levels, 0.0F, em * 0.5F);
 }
@@ -102,18 +106,30 @@ void draw_row(const ColumnContext& context, const accel::NodeTable& table, std::
     if (!record.leaf && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) toggle_node(tree, node);
   }
   note_widget(fmt::format("tree.node.{}", node), selected ? "selected" : "");
+  const OverlayColor color = state.settings.overlay.color;
+  const std::string kind = kind_text(table, record);
+  const std::string value = color_text(context.shown(), node, color);
+  if (ImGui::IsItemHovered()) {
+    tooltip(fmt::format("{} {}, depth {}: {}; {} triangles; {} {}",
+                        table.kind() == accel::NodeKind::cells ? "cell" : "node", node,
+                        record.depth, kind, count_text(record.triangles), color_title(color),
+                        value));
+  }
   ImGui::SameLine(0.0F, 0.0F);
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + static_cast<float>(record.depth) * indent);
   draw_arrow(tree, record, node);
   ImGui::SameLine(0.0F, em * 0.2F);
-  ImGui::Text("%u", node);
+  // The row's tooltip has all of what is cut here.
+  const auto cell = [](const std::string& text) {
+    ImGui::TextUnformatted(fitted(text, ImGui::GetContentRegionAvail().x).c_str());
+  };
+  cell(fmt::format("{}", node));
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(kind_text(table, record).c_str());
+  cell(kind);
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(count_text(record.triangles).c_str());
+  cell(count_text(record.triangles));
   ImGui::TableNextColumn();
-  const OverlayColor color = state.settings.overlay.color;
-  ImGui::TextUnformatted(color_text(context.shown(), node, color).c_str());
+  cell(value);
   ImGui::PopID();
 }
 
@@ -167,9 +183,9 @@ void draw_tree(const ColumnContext& context) {
                                 ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("tree", 4, flags)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("node", ImGuiTableColumnFlags_WidthStretch, 1.9F);
-  ImGui::TableSetupColumn("kind", ImGuiTableColumnFlags_WidthStretch, 1.1F);
-  ImGui::TableSetupColumn("triangles", ImGuiTableColumnFlags_WidthStretch, 0.9F);
+  ImGui::TableSetupColumn("node", ImGuiTableColumnFlags_WidthStretch, 1.8F);
+  ImGui::TableSetupColumn("kind", ImGuiTableColumnFlags_WidthStretch, 1.5F);
+  ImGui::TableSetupColumn("triangles", ImGuiTableColumnFlags_WidthStretch, 1.1F);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.9F);
   draw_headers(context, table->kind() == accel::NodeKind::cells);
   const float line = ImGui::GetTextLineHeight() + 2.0F * ImGui::GetStyle().CellPadding.y;

@@ -54,7 +54,8 @@ void draw_run_row(const View& view, Commands& commands) {
                 work.progress ? fmt::format("{:.0f} %", 100.0 * *work.progress) : "unknown");
     tooltip("How much of the time of watching has passed.");
     ImGui::SameLine();
-    ImGui::TextUnformatted(work.doing.c_str());
+    ImGui::TextUnformatted(fitted(work.doing, ImGui::GetContentRegionAvail().x).c_str());
+    tooltip(work.doing);
     return;
   }
   const bool again = !view.doctor.sensors.empty();
@@ -107,7 +108,7 @@ void draw_total(const View& view, UiState& state, Commands& commands) {
 void draw_state_cell(const SensorRow& sensor, const ThemeColors& colors) {
   ImGui::TableNextColumn();
   if (sensor.usable) {
-    colored_text(colors.good, sensor.in_total ? "usable, in the total" : "usable");
+    wrapped_text(colors.good, sensor.in_total ? "usable, in the total" : "usable");
   } else {
     wrapped_text(colors.warning, sensor.obstacle.empty() ? "not usable" : sensor.obstacle);
   }
@@ -119,11 +120,15 @@ void draw_use_button(const SensorRow& sensor, UiState& state, Commands& commands
   EnergySettings& energy = state.settings.energy;
   const bool used = energy.from == EnergySettings::From::chosen && energy.source == sensor.name;
   ImGui::BeginDisabled(used);
-  if (ImGui::SmallButton(used ? "chosen" : "Use this source")) {
+  const char* label = used ? "chosen" : "Use this source";
+  const float width = ImGui::GetContentRegionAvail().x - 2.0F * ImGui::GetStyle().FramePadding.x;
+  ImGui::PushID("use");
+  if (ImGui::SmallButton(fitted(label, width).c_str())) {
     energy.from = EnergySettings::From::chosen;
     energy.source = sensor.name;
     commands.push_back(ApplyEnergy{});
   }
+  ImGui::PopID();
   ImGui::EndDisabled();
   if (widget_map_enabled()) {
     note_widget(fmt::format("doctor.use.{}", sensor.name), used ? "on" : "");
@@ -151,6 +156,31 @@ void draw_sensor(const SensorRow& sensor, UiState& state, Commands& commands) {
   wrapped_text(watts_text(sensor));
   tooltip("Mean power in W while it was watched.");
   draw_state_cell(sensor, theme_colors(state.preferences.theme));
+}
+
+/// The OpenGL devices in one block of letters that are equally wide.
+void draw_opengl(const DoctorView& doctor) {
+  if (doctor.opengl.empty()) return;
+  std::string text;
+  for (const std::string& line : doctor.opengl) text += (text.empty() ? "" : "\n") + line;
+  ImGui::TextDisabled("OpenGL devices");
+  ImGui::PushFont(mono_font());
+  wrapped_text(text);
+  ImGui::PopFont();
+  note_widget("doctor.opengl", text);
+  tooltip("What OpenGL finds here: the device that draws and traces, and what it can do.");
+}
+
+/// How high that block is at the width there is.
+float opengl_height(const DoctorView& doctor) {
+  if (doctor.opengl.empty()) return 0.0F;
+  ImGui::PushFont(mono_font());
+  float height = 0.0F;
+  for (const std::string& line : doctor.opengl) {
+    height += ImGui::CalcTextSize(line.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y;
+  }
+  ImGui::PopFont();
+  return height + 1.5F * ImGui::GetTextLineHeightWithSpacing();
 }
 
 void draw_sensors(const DoctorView& doctor, float height, UiState& state, Commands& commands) {
@@ -196,14 +226,11 @@ void draw_doctor_window(const View& view, UiState& state, Commands& commands) {
                    "Not examined yet: the sensors of this machine, what is in the way of each and "
                    "the way out will stand here.");
     }
-    const float opengl =
-        (static_cast<float>(doctor.opengl.size()) + 1.5F) * ImGui::GetTextLineHeightWithSpacing();
-    const float room = ImGui::GetContentRegionAvail().y - (doctor.opengl.empty() ? 0.0F : opengl);
+    const float room = ImGui::GetContentRegionAvail().y - opengl_height(doctor);
     if (!doctor.sensors.empty()) {
       draw_sensors(doctor, std::max(room, 8.0F * ImGui::GetFontSize()), state, commands);
     }
-    if (!doctor.opengl.empty()) ImGui::TextDisabled("OpenGL devices");
-    for (const std::string& line : doctor.opengl) wrapped_text(line);
+    draw_opengl(doctor);
   }
   ImGui::End();
 }

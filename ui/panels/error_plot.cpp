@@ -14,6 +14,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace encore::ui {
@@ -22,8 +23,11 @@ namespace {
 
 constexpr const char* kHelp =
     "How well time and energy of an operation are known, after how long: half the 95 % interval in "
-    "% of the mean, over run time in s, both logarithmic. The dashed slope is that of 1/sqrt(t), "
-    "by which the error of independent samples falls; the dashed line across is the stop target.";
+    "% of the mean, over run time in s, both logarithmic. A colour a configuration; time is solid, "
+    "energy dashed. The faint slope is that of 1/sqrt(t), by which the error of independent "
+    "samples "
+    "falls; the line across is the stop target. Intervals of fewer than 8 independent samples tell "
+    "next to nothing and are left out.";
 
 using Places = std::vector<std::size_t>;
 
@@ -34,8 +38,8 @@ Places shown_places(const PlotData& plots, const std::optional<std::string>& cho
   for (std::size_t i = 0; i < all.size() && chosen; ++i) {
     if (all[i].label == *chosen) return {i};
   }
-  const float rows = (height / ImGui::GetFontSize() - 9.0F) / 1.4F;
-  const auto most = static_cast<std::size_t>(std::clamp(rows / 2.0F, 1.0F, 4.0F));
+  const auto most =
+      static_cast<std::size_t>(std::clamp(height / ImGui::GetFontSize() / 4.0F, 1.0F, 5.0F));
   Places places;
   for (const bool in_pane : {true, false}) {
     for (std::size_t i = all.size(); i-- > 0 && places.size() < most;) {
@@ -53,7 +57,9 @@ ErrorSeries series_of(std::string name, std::size_t color, const Points& points,
   series.name = std::move(name);
   series.color = series_color(color);
   series.provenance = provenance;
-  for (const auto& point : points) series.points.push_back({point.elapsed_s, point.relative});
+  for (const auto& point : points) {
+    series.points.push_back({point.elapsed_s, point.relative, point.samples});
+  }
   if (series.points.empty()) series.reason = std::move(reason);
   return series;
 }
@@ -63,20 +69,24 @@ ErrorData error_data(const PlotData& plots, const Places& places, float target_p
   if (target_percent > 0.0F) data.target = static_cast<double>(target_percent) / 100.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const ConfigurationView& one = plots.configurations[places[i]];
-    // The title row names the configuration where there is only one.
-    const std::string prefix = places.size() > 1 ? one.label + ", " : "";
-    data.series.push_back(series_of(prefix + "time", 2 * i, one.time_error,
-                                    {energy::Origin::measured, "clock"},
-                                    "time: not enough operations yet"));
+    ErrorSeries time =
+        series_of(one.label + ", time", i, one.time_error, {energy::Origin::measured, "clock"},
+                  "time: not enough operations yet");
     const std::string& why = one.joules.provenance.detail;
-    data.series.push_back(
-        series_of(prefix + "energy", 2 * i + 1, one.joules_error, one.joules.provenance,
-                  one.joules.value || why.empty() ? "energy: no interval yet" : "energy: " + why));
+    ErrorSeries energy =
+        series_of(one.label + ", energy", i, one.joules_error, one.joules.provenance,
+                  one.joules.value || why.empty() ? "energy: no interval yet" : "energy: " + why);
+    time.quantity = "time";
+    energy.quantity = "energy";
+    energy.dashed = true;
+    time.group = energy.group = one.label;
+    data.series.push_back(std::move(time));
+    data.series.push_back(std::move(energy));
   }
   return data;
 }
 
-/// "1 % in about 3 min (estimate)": the last series to reach the target, if all of them will.
+/// "1 % in about 3 min": the last series to reach the target, if all of them will.
 std::string estimate_text(const ErrorData& data) {
   if (!data.target) return {};
   std::optional<double> longest;
@@ -84,7 +94,10 @@ std::string estimate_text(const ErrorData& data) {
   bool any = false;
   for (const ErrorSeries& series : data.series) {
     const auto when = target_time(series, *data.target);
-    if (!when) continue;
+    if (!when) {
+      if (!series.points.empty()) return {};  // of too few samples: it cannot be told
+      continue;
+    }
     any = true;
     if (when->reached) continue;
     all_reached = false;
@@ -93,7 +106,7 @@ std::string estimate_text(const ErrorData& data) {
   if (!any) return {};
   const std::string target = fmt::format("{:.3g} %", 100.0 * *data.target);
   if (all_reached) return target + " reached";
-  return fmt::format("{} in about {} of run time (estimate)", target, duration_text(*longest));
+  return fmt::format("{} in about {}", target, duration_text(*longest));
 }
 
 /// Which configuration is shown.
@@ -142,15 +155,18 @@ void draw_error_plot(const Rect& area, const View& view, UiState& state, Command
                                  [](const ErrorSeries& series) { return !series.points.empty(); });
     const std::array<PlotTool, 2> tools{
         {{.name = "copy_csv",
-          .label = "Copy CSV",
-          .help = "Copies the points: run time in s, relative half-width of the 95 % interval.",
+          .label = "Copy",
+          .help =
+              "Copies all points as CSV: run time in s, relative half-width of the 95 % interval, "
+              "independent samples.",
           .enabled = any},
          {.name = "save_png",
           .label = "PNG",
           .help = "Saves a picture of the three plots; a notice names the file."}}};
     plot_words("error.estimate", estimate_text(data),
-               "By the slope of 1/sqrt(t) from the last point on; run time is that of the "
-               "configuration's own slots.",
+               "An estimate of the run time that is left: by the slope of 1/sqrt(t) from the last "
+               "point on, for the slowest of time and energy. Run time counts from a "
+               "configuration's first slot.",
                tools_width(tools));
     const auto pressed = draw_end_tools("error", tools);
     if (pressed == std::size_t{0}) {

@@ -14,19 +14,17 @@ namespace encore::ui {
 
 namespace {
 
-/// Tells of the pixel under the mouse, once a pixel.
+/// Tells of the pixel under the mouse, once a pixel, and once that it has left.
 void follow_hover(const Rect& picture, const NavigationOutput& mouse, const PaneContext& context) {
   std::optional<InspectState::Pixel>& told = context.state.inspect.hovered;
   const PaneView& shown = context.shown();
   const ImVec2 at = ImGui::GetIO().MousePos;
   const auto pixel = mouse.hovered ? pixel_at(picture, shown.width, shown.height, at.x, at.y)
                                    : std::optional<std::pair<int, int>>{};
-  if (!pixel) {
-    if (told && told->pane == context.pane) told.reset();
-    return;
-  }
+  if (!pixel) return forget_hover(context.pane, context.state, context.commands);
   const InspectState::Pixel now{context.pane, pixel->first, pixel->second};
   if (told != now) {
+    if (told && told->pane != now.pane) forget_hover(told->pane, context.state, context.commands);
     told = now;
     context.commands.push_back(HoverPixel{now.pane, now.x, now.y});
   }
@@ -49,6 +47,8 @@ void draw_interior(const Rect& room, const PaneContext& context) {
     note_area(context.name("picture"), picture.x, picture.y, picture.width, picture.height,
               fmt::format("{}x{}", shown.width, shown.height));
     follow_hover(picture, mouse, context);
+  } else {
+    forget_hover(context.pane, state, context.commands);
   }
   if (mouse.clicked && there) {
     const auto pixel =
@@ -79,6 +79,13 @@ double scene_size(const View& view) {
   return view.scene.info ? view.scene.info->diagonal : 0.0;
 }
 
+void forget_hover(std::size_t pane, UiState& state, Commands& commands) {
+  std::optional<InspectState::Pixel>& told = state.inspect.hovered;
+  if (!told || told->pane != pane) return;
+  told.reset();
+  commands.push_back(HoverPixel{pane, -1, -1});
+}
+
 void note_moving(UiState& state) {
   const auto& frames = state.inspect.navigation.moved_in_frame;
   state.camera_moving = std::any_of(frames.begin(), frames.end(),
@@ -101,8 +108,7 @@ void draw_pane(std::size_t pane, const Rect& area, const View& view, UiState& st
         ImGui::GetColorU32(theme_colors(state.preferences.theme).canvas));
     draw_pane_header({area.x, area.y, area.width, header}, context);
     if (!room.empty()) {
-      const bool on = state.settings.panes.at(pane).device != PaneDevice::off;
-      if (on) draw_interior(room, context);
+      draw_interior(room, context);
       draw_pane_state(room, context);
     }
   }

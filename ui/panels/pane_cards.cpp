@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace encore::ui {
@@ -107,16 +108,6 @@ std::string waiting_text(const PaneContext& context) {
   return "waiting";
 }
 
-void draw_off(const Rect& room, const PaneContext& context) {
-  const PaneDevice device = context.pane == 0 ? PaneDevice::cpu : PaneDevice::gpu;
-  Card card;
-  card.text = "This pane is off.";
-  card.button = device == PaneDevice::cpu ? "Switch on (CPU)" : "Switch on (GPU)";
-  card.button_name = "switch_on";
-  card.button_tip = "Draws the scene here, too.";
-  if (draw_card(room, card, context)) context.settings().device = device;
-}
-
 }  // namespace
 
 float card_padding() {
@@ -145,7 +136,6 @@ void end_card() {
 
 void draw_pane_state(const Rect& room, const PaneContext& context) {
   const PaneView& shown = context.shown();
-  if (context.settings().device == PaneDevice::off) return draw_off(room, context);
   if (shown.work.active) {
     if (shown.work.elapsed_s > kShow_s) draw_work(room, context);
     return;
@@ -179,6 +169,43 @@ void draw_pane_state(const Rect& room, const PaneContext& context) {
       }
       return;
   }
+}
+
+void draw_no_panes(const Rect& area, UiState& state) {
+  constexpr const char* kText = "Both panes are off: nothing is drawn or measured.";
+  constexpr std::array<const char*, 2> kLabels{"Left pane: CPU", "Right pane: GPU"};
+  constexpr std::array<const char*, 2> kTips{
+      "The processor traces the scene in the left pane.",
+      "The graphics device traces the scene in the right pane."};
+  constexpr std::array kDevices{PaneDevice::cpu, PaneDevice::gpu};
+  if (begin_part("##no panes", area)) {
+    const float em = ImGui::GetFontSize();
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float left = area.x + em;
+    const float room = std::max(area.width - 2.0F * em, em);
+    const auto button_width = [&](const char* label) {
+      return ImGui::CalcTextSize(label).x + 2.0F * style.FramePadding.x;
+    };
+    const float both = button_width(kLabels[0]) + style.ItemSpacing.x + button_width(kLabels[1]);
+    const ImVec2 words = ImGui::CalcTextSize(kText, nullptr, false, room);
+    const float height = words.y + em * 0.6F + ImGui::GetFrameHeight();
+    const float top = area.y + std::max(0.0F, (area.height - height) * 0.5F);
+    ImGui::SetCursorScreenPos({left + std::max(0.0F, (room - words.x) * 0.5F), top});
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + words.x + 1.0F);
+    colored_text(theme_colors(state.preferences.theme).dim_text, kText);
+    ImGui::PopTextWrapPos();
+    note_widget("panes.off", kText);
+    ImGui::SetCursorScreenPos(
+        {left + std::max(0.0F, (room - both) * 0.5F), top + words.y + em * 0.6F});
+    for (std::size_t pane = 0; pane < kPaneCount; ++pane) {
+      if (pane > 0 && both <= room) ImGui::SameLine();
+      if (pane > 0 && both > room) ImGui::SetCursorScreenPos({left, ImGui::GetCursorScreenPos().y});
+      if (ImGui::Button(kLabels.at(pane))) state.settings.panes.at(pane).device = kDevices.at(pane);
+      note_widget(fmt::format("panes.off.switch_on.{}", pane));
+      tooltip(kTips.at(pane));
+    }
+  }
+  ImGui::End();
 }
 
 }  // namespace encore::ui

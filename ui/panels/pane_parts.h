@@ -27,10 +27,20 @@ struct PaneContext {
 /// The same for all panes, whatever they show, so that pictures of the same area have the same
 /// size.
 float pane_header_height();
+/// From one line of figures to the next.
+float pane_header_line();
 void draw_pane_header(const Rect& area, const PaneContext& context);
+/// Time, joules, rays and frames of the last frame in two lines, the first ones where there is not
+/// room for all, and at their right end what passes: whose slot it is, that a picture is refined.
+void draw_pane_figures(const Rect& area, const PaneContext& context);
 /// What the device is called: "CPU", "GPU", "RASTER".
 const char* device_title(PaneDevice device);
 ImVec4 device_color(PaneDevice device);
+
+/// Tells, once, that the mouse has left a pane's picture.
+void forget_hover(std::size_t pane, UiState& state, Commands& commands);
+/// In the place of all panes, when every one is off.
+void draw_no_panes(const Rect& area, UiState& state);
 
 /// Work under way, and what stands in the place of a picture: in the middle or at the top.
 void draw_pane_state(const Rect& room, const PaneContext& context);

@@ -2,6 +2,7 @@
 #include "ui/panels/plot_parts.h"
 #include "ui/panels/session_parts.h"
 #include "ui/panels/shell_parts.h"
+#include "ui/plot/plot_draw.h"
 #include "ui/plot/plot_export.h"
 #include "ui/plot/strip_chart.h"
 #include "ui/plot/value_text.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -115,11 +117,10 @@ StripData strip_of(const ShownPlots& shown) {
     strip.series.push_back(std::move(series));
   }
   if (strip.series.empty()) {
-    StripSeries none;
-    none.name = "watts";
+    StripSeries none;  // no name, no entry in the legend: there is nothing to tell apart
     none.reason = plots.no_power.empty() ? "no power source is open" : plots.no_power;
     none.provenance = {energy::Origin::unavailable, none.reason};
-    // Of the present, the row of ways out says why.
+    // Of the present, the words above the chart say why.
     if (!shown.session && !plots.no_power.empty()) none.reason = "no watts";
     strip.series.push_back(std::move(none));
   }
@@ -163,11 +164,22 @@ const std::array<PlotTool, 2> kWaysOut{
       .help = "With two readings of a meter, watts and joules are computed from busy times and "
               "marked as modelled."}}};
 
-void draw_ways_out(const PlotData& plots, float reserved, UiState& state) {
+/// The ways out, and why there are no watts, in full where half of the height is enough.
+void draw_ways_out(const PlotData& plots, UiState& state) {
   const auto pressed = draw_tools("power", kWaysOut);
   if (pressed == std::size_t{0}) state.doctor_open = true;
   if (pressed == std::size_t{1}) state.dialog = Dialog::energy;
-  plot_words("power.problem", plots.no_power, "Why there are no watts.", reserved);
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  if (room.x < 4.0F * ImGui::GetFontSize()) return;
+  const float lines = std::floor(0.55F * room.y / ImGui::GetTextLineHeight());
+  const PlacedLabel words =
+      fit_label(plots.no_power, room.x, static_cast<int>(std::clamp(lines, 1.0F, 12.0F)),
+                [](std::string_view text) { return text_width(text); });
+  std::string text;
+  for (const std::string& one : words.lines) text += (text.empty() ? "" : "\n") + one;
+  ImGui::TextDisabled("%s", text.c_str());
+  note_widget("power.problem", plots.no_power);
+  tooltip(plots.no_power);
 }
 
 void run_tool(std::string_view name, const ShownPlots& shown, const StripData& strip,
@@ -206,27 +218,17 @@ void draw_power_plot(const Rect& area, const View& view, UiState& state, Command
       return s.history != nullptr && !s.history->empty();
     });
     tools.push_back({.name = "copy_csv",
-                     .label = "Copy CSV",
-                     .help = "Copies what is in sight: time in s, power in W, energy in J.",
+                     .label = "Copy",
+                     .help = "Copies what is in sight as CSV: time in s, power in W, energy in J.",
                      .enabled = samples});
     tools.push_back({.name = "save_png",
                      .label = "PNG",
                      .help = "Saves a picture of the three plots; a notice names the file."});
     const float reserved = tools_width(tools);
-    // In the title row if that has room: a low plot needs its height for the chart.
-    const bool ways_out = !shown.session && !shown.data.no_power.empty();
-    const float used = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x;
-    const float room = area.width - used - reserved - tools_width(kWaysOut);
-    const bool in_title = ways_out && room > 8.0F * ImGui::GetFontSize();
-    if (in_title) {
-      ImGui::SameLine();
-      draw_ways_out(shown.data, reserved, state);
-    } else {
-      plot_words("power.idle", idle_words(shown.data),
-                 "Power while nothing runs, W, with its 95 % interval.", reserved);
-    }
+    plot_words("power.idle", idle_words(shown.data),
+               "Power while nothing runs, W, with its 95 % interval: the dashed line.", reserved);
     const auto pressed = draw_end_tools("power", tools);
-    if (ways_out && !in_title) draw_ways_out(shown.data, 0.0F, state);
+    if (!shown.session && !shown.data.no_power.empty()) draw_ways_out(shown.data, state);
     strip_chart("power.chart", strip, shown.charts.power);
     if (pressed) run_tool(tools[*pressed].name, shown, strip, state, commands);
   }

@@ -100,9 +100,10 @@ void draw_recorder(const View& view, UiState& state, Commands& commands) {
                         count_text(recorder.rows), bytes_text(recorder.bytes));
   }
   ImGui::AlignTextToFramePadding();
-  colored_text(recorder.state == Recorder::recording ? colors.good : colors.text, line);
+  colored_text(recorder.state == Recorder::recording ? colors.good : colors.text,
+               fitted(line, ImGui::GetContentRegionAvail().x));
   note_widget("sessions.recorder", recorder_word(recorder.state));
-  tooltip("Time that was recorded, rows of samples and frames, size of the files.");
+  tooltip(line + "\nTime that was recorded, rows of samples and frames, size of the files.");
   if (!recorder.folder.empty()) {
     wrapped_text(colors.dim_text, recorder.folder);
     note_widget("sessions.recorder_folder", recorder.folder);
@@ -164,13 +165,16 @@ void draw_session(const SessionView& session, UiState& state) {
     note_widget("sessions.folder");
     return;
   }
-  ImGui::TextUnformatted(session_name(session.folder).c_str());
+  ImGui::TextUnformatted(
+      fitted(session_name(session.folder), 0.6F * ImGui::GetContentRegionAvail().x).c_str());
   note_widget("sessions.folder", session.folder);
   tooltip(session.folder);
   ImGui::SameLine();
-  colored_text(session.state == "complete" ? colors.good : colors.warning, session.state);
+  colored_text(session.state == "complete" ? colors.good : colors.warning,
+               fitted(session.state, ImGui::GetContentRegionAvail().x));
   note_widget("sessions.state", session.state);
-  tooltip("Complete: the recording was ended. Otherwise what was written until then is shown.");
+  tooltip(session.state +
+          "\nComplete: the recording was ended. Otherwise what was written until then is shown.");
   ImGui::Checkbox("Plots show it", &state.show_session);
   note_widget("sessions.show", state.show_session ? "on" : "off");
   tooltip("The plots show this session instead of the present.");

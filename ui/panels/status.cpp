@@ -61,25 +61,25 @@ void draw_work(const Doing& doing, std::size_t others, Commands& commands) {
   note_widget("status.text", text);
 }
 
-std::string hover_text(const View& view) {
-  for (const PaneView& pane : view.panes) {
-    if (!pane.hover) continue;
-    const PixelView& pixel = *pane.hover;
-    const std::string cost = fmt::format("{} steps, {} box tests, {} triangle tests", pixel.steps,
-                                         pixel.box_tests, pixel.triangle_tests);
-    if (!pixel.found) return fmt::format("pixel {}, {}: no hit · {}", pixel.x, pixel.y, cost);
-    std::string what = fmt::format("triangle {}", pixel.triangle);
-    if (!pixel.material.empty()) what += ", " + pixel.material;
-    return fmt::format("pixel {}, {}: {}, distance {:.4g} · {}", pixel.x, pixel.y, what,
-                       pixel.distance, cost);
-  }
-  return {};
+/// Of the pixel that the mouse is at now: what is known of it may be of where the mouse was.
+std::string hover_text(const View& view, const UiState& state) {
+  if (!state.inspect.hovered) return {};
+  const PaneView& pane = view.panes.at(state.inspect.hovered->pane);
+  if (!pane.hover) return {};
+  const PixelView& pixel = *pane.hover;
+  const std::string cost = fmt::format("{} steps, {} box tests, {} triangle tests", pixel.steps,
+                                       pixel.box_tests, pixel.triangle_tests);
+  if (!pixel.found) return fmt::format("pixel {}, {}: no hit · {}", pixel.x, pixel.y, cost);
+  std::string what = fmt::format("triangle {}", pixel.triangle);
+  if (!pixel.material.empty()) what += ", " + pixel.material;
+  return fmt::format("pixel {}, {}: {}, distance {:.4g} · {}", pixel.x, pixel.y, what,
+                     pixel.distance, cost);
 }
 
-std::string idle_text(const View& view) {
+std::string idle_text(const View& view, const UiState& state) {
   if (!view.scene.problem.empty()) return view.scene.problem;
-  if (const std::string hover = hover_text(view); !hover.empty()) return hover;
   if (view.measure.measuring) return "measuring: " + view.measure.doing;
+  if (const std::string hover = hover_text(view, state); !hover.empty()) return hover;
   if (!view.scene.scene) return "no scene; Ctrl+O opens one";
   return "ready";
 }
@@ -154,7 +154,7 @@ void draw_status(const Rect& area, const View& view, UiState& state, Commands& c
     if (!doing.empty()) {
       draw_work(doing.front(), doing.size() - 1, commands);
     } else {
-      const std::string text = idle_text(view);
+      const std::string text = idle_text(view, state);
       const bool problem = !view.scene.problem.empty();
       const std::string shown = fitted(text, right - em * 0.6F);
       colored_text(problem ? colors.problem : colors.dim_text, shown);

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace encore::ui {
@@ -85,9 +86,9 @@ void draw_header(const ColumnContext& context) {
   const std::string text =
       traces ? std::string(accel::to_string(pane.structure.kind)) : "no structure";
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text.c_str());
+  const bool cut = cut_text(text);
   note_widget("structure.title", text);
-  tooltip("The structure that this column is about.");
+  if (!cut) tooltip("The structure that this column is about.");
 }
 
 /// The rasteriser has no structure: then the other pane's is shown.
@@ -113,6 +114,14 @@ std::optional<float> node_value(const PaneView& pane, std::uint32_t node) {
   if (!pane.node_values || node >= pane.node_values->values.size()) return std::nullopt;
   const float value = pane.node_values->values[node];
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+bool cut_text(const std::string& text, std::optional<float> width) {
+  const std::string shown = fitted(text, width.value_or(ImGui::GetContentRegionAvail().x));
+  ImGui::TextUnformatted(shown.c_str());
+  if (shown == text) return false;
+  tooltip(text);
+  return true;
 }
 
 void draw_missing(const ColumnContext& context, const char* name, const std::string& why) {

@@ -1,4 +1,6 @@
+#include "accel/inspect/node_table.h"
 #include "accel/settings.h"
+#include "scene/camera_motion.h"
 #include "ui/panels/camera_navigation.h"
 #include "ui/panels/pane_parts.h"
 #include "ui/panels/shell_parts.h"
@@ -10,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace encore::ui {
 
@@ -17,10 +21,48 @@ namespace {
 
 constexpr std::size_t kPlace = kPaneCount;
 
+/// How far the first camera is turned from the panes' one, and raised.
+constexpr double kTurned = 35.0 * std::numbers::pi / 180.0;
+constexpr double kRaised = 20.0 * std::numbers::pi / 180.0;
+
 std::string title_of(const UiState& state) {
   const PaneSettings& pane = state.settings.panes.at(state.inspected_pane);
-  return fmt::format("Structure in 3D: pane {}, {}", device_title(pane.device),
-                     accel::to_string(pane.structure.kind));
+  return fmt::format("{} in 3D", accel::to_string(pane.structure.kind));
+}
+
+/// Of the scene. While one is loaded the nodes may still be those of the last scene.
+std::optional<scene::Bounds> whole_of(const View& view, const UiState& state) {
+  if (view.scene.info) return view.scene.info->bounds;
+  const auto& nodes = view.panes.at(state.inspected_pane).nodes;
+  if (view.scene.loading.active || !nodes || nodes->empty()) return std::nullopt;
+  return nodes->bounds();
+}
+
+/// From the side and from above the panes' camera, so that the whole is seen, and that camera.
+void place_camera(const Rect& room, const View& view, UiState& state) {
+  const auto bounds = whole_of(view, state);
+  if (!bounds || room.empty()) return;
+  const scene::Camera turned =
+      scene::orbit(state.camera, kTurned, kRaised, up_axis_of(state.preferences));
+  state.free_camera = scene::focus(turned, *bounds, double(room.width) / double(room.height));
+}
+
+void draw_title(const Rect& line, UiState& state) {
+  const char* const label = "Reset";
+  const float reset = ImGui::CalcTextSize(label).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+  const std::string title = title_of(state);
+  const float room = line.width - reset - ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetCursorScreenPos({line.x, line.y});
+  ImGui::TextUnformatted(fitted(title, room).c_str());
+  note_widget("structure_view.title", title);
+  tooltip(title +
+          ": the structure alone, with a camera of its own. A click selects the node under the "
+          "mouse.");
+  ImGui::SetCursorScreenPos({line.right() - reset, line.y});
+  // The next frame places the camera anew.
+  if (ImGui::SmallButton(label)) state.free_camera.reset();
+  note_widget("structure_view.reset");
+  tooltip("Shows the whole structure again, from the side and from above the panes' camera.");
 }
 
 void draw_header(const Rect& area, const View& view, UiState& state) {
@@ -29,30 +71,25 @@ void draw_header(const Rect& area, const View& view, UiState& state) {
   const ThemeColors& colors = theme_colors(state.preferences.theme);
   ImGui::SetCursorScreenPos({area.x + em * 0.5F, area.y + std::round(em * 0.2F)});
   draw_pane_switch("structure_view", state);
-  ImGui::AlignTextToFramePadding();
-  const std::string title = title_of(state);
-  ImGui::TextUnformatted(fitted(title, right - ImGui::GetCursorScreenPos().x - em * 2.0F).c_str());
-  note_widget("structure_view.title", title);
-  tooltip(
-      "The structure alone, with a camera of its own. A click selects the node under the "
-      "mouse.");
-  ImGui::SameLine();
   ImGui::SetCursorScreenPos({right - em * 1.4F, ImGui::GetCursorScreenPos().y});
   if (ImGui::Button("×")) state.structure_view = false;
   note_widget("structure_view.close");
   tooltip("Closes this view; V opens it again.");
 
-  ImGui::SetCursorScreenPos(
-      {area.x + em * 0.5F, area.y + std::round(em * 0.4F + ImGui::GetFrameHeight())});
+  const Rect line{area.x + em * 0.5F, area.y + std::round(em * 0.4F + ImGui::GetFrameHeight()),
+                  area.width - em, pane_header_line()};
+  draw_title(line, state);
+
+  ImGui::SetCursorScreenPos({line.x, line.bottom()});
   const PaneView& shown = view.structure_view;
   const std::string nodes =
       fmt::format("{} nodes drawn, {} left out", count_text(shown.nodes_drawn),
                   count_text(shown.nodes_hidden_small));
   colored_text(colors.dim_text, fitted(nodes, right - ImGui::GetCursorScreenPos().x));
   note_widget("structure_view.nodes", nodes);
-  tooltip(
-      "Left out are nodes that look smaller than the overlay's least size, or that are more "
-      "than its limit; the smallest go first.");
+  tooltip(nodes +
+          ". Left out are nodes that look smaller than the overlay's least size, or that are more "
+          "than its limit; the smallest go first.");
 }
 
 void draw_reason(const Rect& room, const View& view, const UiState& state) {
@@ -73,7 +110,8 @@ void draw_interior(const Rect& room, const View& view, UiState& state, Commands&
   const Rect picture = fit_picture(room, shown.width, shown.height);
   const bool there = shown.texture != 0 && !picture.empty();
   if (there) draw_picture(picture, shown.texture);
-  if (!state.free_camera) state.free_camera = state.camera;
+  if (!state.free_camera) place_camera(room, view, state);
+  if (!state.free_camera) return draw_reason(room, view, state);
   const NavigationInput input{.place = kPlace,
                               .room = room,
                               .picture = picture.empty() ? room : picture,

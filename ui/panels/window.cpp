@@ -1,4 +1,5 @@
 #include "ui/layout_drag.h"
+#include "ui/panels/pane_parts.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/shell_parts.h"
 #include "ui/style.h"
@@ -122,16 +123,30 @@ int shown_panes(const UiState& state) {
   return count;
 }
 
-void draw_middle(const Layout& layout, const View& view, UiState& state, Commands& commands) {
+/// The panes that are on, each in the next place, and after them the 3D view.
+void draw_panes(const Layout& layout, const View& view, UiState& state, Commands& commands) {
+  if (shown_panes(state) == 0) {
+    for (std::size_t pane = 0; pane < kPaneCount; ++pane) forget_hover(pane, state, commands);
+    if (!layout.panes[0].empty()) draw_no_panes(layout.panes[0], state);
+    return;
+  }
   std::size_t place = 0;
   for (std::size_t pane = 0; pane < kPaneCount; ++pane) {
-    if (state.settings.panes[pane].device == PaneDevice::off) continue;
-    const Rect& area = layout.panes[place++];
-    if (!area.empty()) draw_pane(pane, area, view, state, commands);
+    const bool on = state.settings.panes[pane].device != PaneDevice::off;
+    if (on && !layout.panes[place].empty()) {
+      draw_pane(pane, layout.panes[place], view, state, commands);
+    } else {
+      forget_hover(pane, state, commands);
+    }
+    if (on) ++place;
   }
   if (state.structure_view && place < layout.panes.size() && !layout.panes[place].empty()) {
     draw_structure_view(layout.panes[place], view, state, commands);
   }
+}
+
+void draw_middle(const Layout& layout, const View& view, UiState& state, Commands& commands) {
+  draw_panes(layout, view, state, commands);
   const Rect& last =
       layout.error.empty() ? layout.bars.empty() ? layout.power : layout.bars : layout.error;
   state.plots_area = {layout.power.x, layout.power.y, last.right() - layout.power.x,
@@ -157,7 +172,7 @@ void draw_window(const View& view, UiState& state, Commands& commands) {
                           .em = em,
                           .menu_height = menu + line_height,
                           .status_height = std::round(ImGui::GetFrameHeight() + em * 0.2F),
-                          .panes = shown_panes(state)};
+                          .panes = std::max(1, shown_panes(state))};
   const Layout layout = make_layout(state.preferences.layout, input);
   ImGui::GetBackgroundDrawList()->AddRectFilled(
       {0.0F, 0.0F}, size, ImGui::GetColorU32(theme_colors(state.preferences.theme).canvas));

@@ -69,7 +69,9 @@ Axis axis_for(const Frame& frame, const std::string& unit, bool all_units) {
       high = std::max(high, extent.high * scale);
       const auto sum = bar_sum(bar);
       if (frame.mode == BarMode::percent_of_bar || !sum || !sum->half_width) continue;
-      low = std::min(low, (sum->value - *sum->half_width) * scale);
+      // What cannot be less than nothing is not shown to be: its interval ends at 0, and the bars
+      // of both units stand on one line.
+      if (sum->value < 0.0) low = std::min(low, (sum->value - *sum->half_width) * scale);
       high = std::max(high, (sum->value + *sum->half_width) * scale);
     }
   }
@@ -82,6 +84,17 @@ Axis axis_for(const Frame& frame, const std::string& unit, bool all_units) {
   const double room = (high - low) * frame.top_room / (1.0 - frame.top_room);
   set_range(axis, low < 0.0 ? low - 0.05 * (high - low) : 0.0, high + room);
   return axis;
+}
+
+/// Bars of both units stand on one line: what one axis shows below 0, the other shows, too.
+void share_zero(std::vector<Axis>& axes) {
+  double below = 0.0;
+  for (const Axis& axis : axes) {
+    if (axis.high > 0.0) below = std::max(below, -axis.low / axis.high);
+  }
+  for (Axis& axis : axes) {
+    if (below > 0.0 && axis.high > 0.0) set_range(axis, -below * axis.high, axis.high);
+  }
 }
 
 float y_of(const Axis& axis, const PlotRect& area, double value) {
@@ -128,6 +141,16 @@ void place_bar(const Frame& frame, PlacedBar placed, BarLayout& layout) {
     place_parts(frame, axis, placed, layout);
   }
   layout.bars.push_back(placed);
+}
+
+/// What groups would have to be wide for their labels.
+float label_room(const BarData& data, const BarSizes& sizes, const MeasureText& measure) {
+  constexpr std::size_t kMost = 64;  // of very many, the first ones speak for the others
+  float widest = 0.0F;
+  for (std::size_t i = 0; i < std::min(kMost, data.groups.size()); ++i) {
+    widest = std::max(widest, two_line_width(data.groups[i].label, measure));
+  }
+  return std::min(widest + 0.5F * sizes.gap + 1.0F, sizes.most_group);
 }
 
 }  // namespace
@@ -194,11 +217,13 @@ BarLayout layout_bars(const BarData& data, BarMode mode, const PlotRect& area, f
     layout.axes.push_back(axis_for(frame, unit, percent));
     if (percent) break;  // both in %: one axis
   }
+  share_zero(layout.axes);
 
   // All groups are equally wide; the bars share what the gap leaves.
   const auto bars = static_cast<float>(most_bars);
   const auto groups = static_cast<float>(data.groups.size());
-  const float least = std::max(sizes.least_group, bars * sizes.least_bar + sizes.gap);
+  const float least = std::max(
+      {sizes.least_group, bars * sizes.least_bar + sizes.gap, label_room(data, sizes, measure)});
   const float group_width = std::max(least, area.width() / groups);
   layout.content_width = group_width * groups;
   layout.scroll = std::clamp(scroll, 0.0F, std::max(0.0F, layout.content_width - area.width()));

@@ -118,6 +118,7 @@ struct BarSizes {
   float most_bar = 48.0F;
   float gap = 10.0F;          ///< between groups
   float least_group = 40.0F;  ///< so that a label has room
+  float most_group = 40.0F;   ///< groups get no wider than this only for their labels
   int label_lines = 2;
   float top_room = 10.0F;  ///< above the largest bar, for what is written there
 };
@@ -133,7 +134,9 @@ BarLayout layout_bars(const BarData& data, BarMode mode, const PlotRect& area, f
 std::optional<PlacedPart> bar_at(const BarLayout& layout, const BarData& data, float x, float y);
 
 /// Breaks a text at blanks, '/', ',' and '-' into at most `lines` of at most `width` pixels; what
-/// does not fit ends in "..".
+/// does not fit ends in an ellipsis.
 PlacedLabel fit_label(std::string_view text, float width, int lines, const MeasureText& measure);
+/// The least width at which a text fits into two lines.
+float two_line_width(std::string_view text, const MeasureText& measure);
 
 }  // namespace encore::ui

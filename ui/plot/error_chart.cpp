@@ -19,6 +19,12 @@ bool has_points(const ErrorSeries& series) {
   return std::any_of(series.points.begin(), series.points.end(), drawable);
 }
 
+/// "2 independent samples: too few for an interval".
+std::string few_samples(const ErrorSample& point) {
+  if (!point.samples) return "no interval yet";
+  return fmt::format("{:.3g} independent samples so far: too few for an interval", *point.samples);
+}
+
 std::string percent_text(double share) {
   return fmt::format("{:.3g} %", 100.0 * share);
 }
@@ -31,19 +37,66 @@ std::string target_text(const ErrorSeries& series, double target) {
                      duration_text(when->elapsed_s));
 }
 
-std::vector<LegendEntry> legend_entries(const ErrorData& data, const ErrorState& state) {
-  std::vector<LegendEntry> entries;
-  for (const ErrorSeries& series : data.series) {
-    LegendEntry entry;
-    entry.name = series.name;
-    entry.color = plot_color(series.color);
-    entry.hidden = state.hidden.contains(series.name);
-    entry.provenance = series.provenance;
-    entry.tooltip = series.reason;
-    if (data.target) entry.value = target_text(series, *data.target);
-    entries.push_back(std::move(entry));
+bool hidden(const ErrorSeries& series, const ErrorState& state) {
+  return state.hidden.contains(series.name) || state.hidden.contains(series.group) ||
+         state.hidden.contains(series.quantity);
+}
+
+/// What is known of a series now, in a line: "time: 1 % expected after 2 h".
+std::string state_text(const ErrorSeries& series, const ErrorData& data) {
+  const std::string name = series.quantity.empty() ? "" : series.quantity + ": ";
+  if (const ErrorSample* last = last_point(series)) {
+    std::string text = name + "\xC2\xB1" + value_text(100.0 * *last->relative_ci95, "%", 3);
+    if (data.target) text += ", " + target_text(series, *data.target);
+    return text;
   }
-  return entries;
+  if (!series.points.empty()) return name + few_samples(series.points.back());
+  return series.reason;
+}
+
+LegendEntry quantity_entry(const ErrorSeries& series, const ErrorState& state) {
+  LegendEntry entry;
+  entry.name = series.quantity;
+  entry.color = text_color(0.75F);
+  entry.mark = series.dashed ? LegendEntry::Mark::dashes : LegendEntry::Mark::line;
+  entry.hidden = state.hidden.contains(series.quantity);
+  entry.provenance = series.provenance;
+  return entry;
+}
+
+/// One entry a group, by its colour, and one a quantity, by its line; series without a group have
+/// one of their own.
+std::vector<LegendEntry> legend_entries(const ErrorData& data, const ErrorState& state) {
+  std::vector<LegendEntry> groups;
+  std::vector<LegendEntry> quantities;
+  const auto find = [](std::vector<LegendEntry>& entries, const std::string& name) {
+    const auto at = std::find_if(entries.begin(), entries.end(),
+                                 [&](const LegendEntry& entry) { return entry.name == name; });
+    return at == entries.end() ? nullptr : &*at;
+  };
+  for (const ErrorSeries& series : data.series) {
+    const bool grouped = !series.group.empty();
+    const std::string& name = grouped ? series.group : series.name;
+    LegendEntry* entry = find(groups, name);
+    if (entry == nullptr) {
+      entry = &groups.emplace_back();
+      entry->name = name;
+      entry->color = plot_color(series.color);
+      entry->hidden = state.hidden.contains(name);
+      if (!grouped) entry->provenance = series.provenance;
+    }
+    const std::string line = state_text(series, data);
+    if (!line.empty()) entry->tooltip += (entry->tooltip.empty() ? "" : "\n") + line;
+    if (!grouped || series.quantity.empty()) continue;
+    LegendEntry* known = find(quantities, series.quantity);
+    if (known == nullptr) {
+      quantities.push_back(quantity_entry(series, state));
+    } else if (known->provenance->origin == energy::Origin::unavailable) {
+      known->provenance = series.provenance;
+    }
+  }
+  groups.insert(groups.end(), quantities.begin(), quantities.end());
+  return groups;
 }
 
 void draw_target(ImDrawList& list, const PlotRect& area, const ErrorData& data, const Axis& y) {
@@ -52,7 +105,10 @@ void draw_target(ImDrawList& list, const PlotRect& area, const ErrorData& data, 
   dashed_line(list, {area.x0, at}, {area.x1, at}, accent_color(), std::max(1.2F, 0.1F * em()));
   if (at < area.y0 || at > area.y1) return;
   const std::string text = fmt::format("target {}", percent_text(*data.target));
-  draw_text(list, area.x0 + 0.5F * em(), at - 1.2F * em(), accent_color(), text);
+  // Below the line if there is room: what is still measured lies above it.
+  const bool below = at + 1.3F * em() < area.y1;
+  draw_text(list, area.x0 + 0.5F * em(), below ? at + 0.15F * em() : at - 1.2F * em(),
+            accent_color(), text);
 }
 
 /// The slope that independent samples give, from the last point back and on.
@@ -65,19 +121,67 @@ void draw_reference(ImDrawList& list, const PlotRect& area, const ErrorSeries& s
               {area.x1, pixel_y(y, area, 100.0 * *last)}, plot_color(series.color, 0.45F), 1.0F);
 }
 
+/// A line in dashes whose length runs on from piece to piece.
+void dashed_path(ImDrawList& list, const std::vector<ImVec2>& points, std::uint32_t color,
+                 float thickness) {
+  const float dash = 0.45F * em();
+  float done = 0.0F;  // since the last dash began; gaps are as long
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const ImVec2 from = points[i - 1];
+    const ImVec2 to = points[i];
+    const float length = std::hypot(to.x - from.x, to.y - from.y);
+    if (!(length > 0.0F) || length > 100.0F * dash) {
+      list.AddLine(from, to, color, thickness);
+      continue;
+    }
+    const auto at = [&](float along) {
+      const float share = along / length;
+      return ImVec2{from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+    };
+    for (float along = 0.0F; along < length;) {
+      const bool on = done < dash;
+      const float step = std::min(length - along, (on ? dash : 1.8F * dash) - done);
+      if (on) list.AddLine(at(along), at(along + step), color, thickness);
+      along += std::max(step, 0.01F);
+      done += std::max(step, 0.01F);
+      if (done >= 1.8F * dash) done = 0.0F;
+    }
+  }
+}
+
 void draw_series(ImDrawList& list, const PlotRect& area, const ErrorSeries& series,
                  const std::vector<PlacedPoint>& placed) {
   const std::uint32_t color = plot_color(series.color);
+  const float thickness = std::max(1.3F, 0.11F * em());
   std::vector<ImVec2> points;
-  points.reserve(placed.size());
-  for (const PlacedPoint& point : placed) points.emplace_back(point.x, point.y);
-  polyline(list, points, color, std::max(1.3F, 0.11F * em()));
+  const auto lift = [&] {
+    if (series.dashed) {
+      dashed_path(list, points, color, thickness);
+    } else {
+      polyline(list, points, color, thickness);
+    }
+    points.clear();
+  };
+  for (const PlacedPoint& point : placed) {
+    if (point.apart) lift();
+    points.emplace_back(point.x, point.y);
+  }
+  lift();
   // Marks where they stand apart; the last point always: it is the figure as it stands.
-  const float radius = std::max(2.0F, 0.18F * em());
-  const bool apart = static_cast<float>(points.size()) * 4.0F * radius < area.width();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool last = i + 1 == points.size();
-    if (apart || last) list.AddCircleFilled(points[i], last ? 1.4F * radius : radius, color, 12);
+  const float radius = std::max(2.0F, 0.16F * em());
+  const bool apart = static_cast<float>(placed.size()) * 4.0F * radius < area.width();
+  const bool current = last_point(series) != nullptr;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const bool last = current && i + 1 == placed.size();
+    if (!apart && !last) continue;
+    const ImVec2 at{placed[i].x, placed[i].y};
+    const float size = last ? 1.4F * radius : radius;
+    if (series.dashed) {
+      list.AddCircleFilled(at, size, ImGui::GetColorU32(ImGuiCol_WindowBg), 12);
+      list.AddCircle(at, size, color, 12, 1.2F);
+    } else {
+      list.AddCircleFilled(at, size, color, 12);
+    }
   }
 }
 
@@ -90,6 +194,9 @@ void tooltip(const ErrorData& data, const ErrorHit& hit) {
                                      value_text(100.0 * *point.relative_ci95, "%", 4),
                                      duration_text(point.elapsed_s))
                              .c_str());
+  if (point.samples) {
+    ImGui::TextUnformatted(fmt::format("from {:.3g} independent samples", *point.samples).c_str());
+  }
   ImGui::TextUnformatted(provenance_text(series.provenance).c_str());
   if (data.target) ImGui::TextUnformatted(target_text(series, *data.target).c_str());
   ImGui::EndTooltip();
@@ -104,13 +211,16 @@ void apply(const PlotInput& input, ErrorState& state) {
   if (input.fit) state.fit = true;
 }
 
+/// Why there is nothing to see; what all series say is said once.
 void say_reasons(ImDrawList& list, const PlotRect& area, const ErrorData& data,
                  std::string_view reason) {
   std::string text;
   for (const ErrorSeries& series : data.series) {
     if (has_points(series)) return;
-    if (!series.reason.empty() && text.find(series.reason) == std::string::npos) {
-      text += (text.empty() ? "" : "; ") + series.reason;
+    const std::string why =
+        series.points.empty() ? series.reason : few_samples(series.points.back());
+    if (!why.empty() && text.find(why) == std::string::npos) {
+      text += (text.empty() ? "" : "; ") + why;
     }
   }
   draw_reason(list, area, text.empty() ? reason : text);
@@ -125,9 +235,13 @@ ErrorResult error_chart(std::string_view name, const ErrorData& data, ErrorState
   const ImVec2 start = ImGui::GetCursorScreenPos();
   const ImVec2 whole{size.x > 0.0F ? size.x : room.x, size.y > 0.0F ? size.y : room.y};
   ImGui::PushID(name.data(), name.data() + name.size());
-  if (const auto clicked = draw_legend(name, legend_entries(data, state), whole.x)) {
-    const std::string& series = data.series[*clicked].name;
-    if (state.hidden.erase(series) == 0) state.hidden.insert(series);
+  const std::vector<LegendEntry> entries = legend_entries(data, state);
+  // The chart keeps at least half of the height.
+  const auto rows = static_cast<std::size_t>(
+      std::clamp((0.5F * whole.y - 1.5F * em() - x_axis_height()) / (1.4F * em()), 1.0F, 6.0F));
+  if (const auto clicked = draw_legend(name, entries, whole.x, rows)) {
+    const std::string& entry = entries[*clicked].name;
+    if (state.hidden.erase(entry) == 0) state.hidden.insert(entry);
   }
   if (state.fit) fit_errors(data, state.x, state.y);
 
@@ -141,20 +255,24 @@ ErrorResult error_chart(std::string_view name, const ErrorData& data, ErrorState
     result.hovered = input.hovered;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     draw_ground(list, area);
-    draw_x_axis(list, area, state.x, axis_ticks(state.x, x_tick_room(area.width())));
-    draw_y_axis(list, area, state.y, axis_ticks(state.y, y_tick_room(area.height())), Side::left);
+    // Without points there are no scales, and nothing that a target could be held against.
+    const bool any = std::any_of(data.series.begin(), data.series.end(), has_points);
+    if (any) {
+      draw_x_axis(list, area, state.x, axis_ticks(state.x, x_tick_room(area.width())));
+      draw_y_axis(list, area, state.y, axis_ticks(state.y, y_tick_room(area.height())), Side::left);
+    }
     list.PushClipRect({area.x0, area.y0}, {area.x1, area.y1}, true);
     if (input.dragging) draw_note(list, area.x0 + em(), area.y0, "zoom to this range", 0.0F);
     std::vector<std::vector<PlacedPoint>> placed;
     for (const ErrorSeries& series : data.series) {
-      const bool hidden = state.hidden.contains(series.name);
-      placed.push_back(hidden ? std::vector<PlacedPoint>{}
-                              : place_errors(series, state.x, state.y, area));
-      if (hidden) continue;
+      const bool off = hidden(series, state);
+      placed.push_back(off ? std::vector<PlacedPoint>{}
+                           : place_errors(series, state.x, state.y, area));
+      if (off) continue;
       if (state.show_reference) draw_reference(list, area, series, state.x, state.y);
       draw_series(list, area, series, placed.back());
     }
-    draw_target(list, area, data, state.y);
+    if (any) draw_target(list, area, data, state.y);
     say_reasons(list, area, data, reason);
     if (input.hovered) {
       result.under_mouse = nearest_error(placed, input.mouse_x, input.mouse_y, em());

@@ -8,7 +8,7 @@ namespace encore::ui {
 namespace {
 
 constexpr std::string_view kBreaks = " /,-";
-constexpr std::string_view kEllipsis = "..";
+constexpr std::string_view kEllipsis = "\xE2\x80\xA6";
 
 /// The end of the UTF-8 character before `end`.
 std::size_t back_one(std::string_view text, std::size_t end) {
@@ -68,6 +68,19 @@ PlacedLabel fit_label(std::string_view text, float width, int lines, const Measu
   }
   label.shortened = !rest.empty();
   return label;
+}
+
+float two_line_width(std::string_view text, const MeasureText& measure) {
+  const std::string_view whole = trim(text);
+  float least = measure(whole);
+  for (std::size_t at = whole.find_first_of(kBreaks); at != std::string_view::npos;
+       at = whole.find_first_of(kBreaks, at + 1)) {
+    const std::size_t end = at + 1;
+    if (end == whole.size()) break;
+    least = std::min(
+        least, std::max(measure(trim(whole.substr(0, end))), measure(trim(whole.substr(end)))));
+  }
+  return least;
 }
 
 }  // namespace encore::ui

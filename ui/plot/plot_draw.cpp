@@ -147,8 +147,9 @@ void draw_frame(ImDrawList& list, const PlotRect& area) {
 
 void draw_reason(ImDrawList& list, const PlotRect& area, std::string_view text) {
   const float width = std::max(area.width() - 2.0F * em(), 4.0F * em());
-  std::vector<std::string> lines =
-      fit_label(text, width, 4, [](std::string_view part) { return text_width(part); }).lines;
+  const auto most = static_cast<int>(std::clamp(area.height() / (1.2F * em()), 1.0F, 8.0F));
+  const std::vector<std::string> lines =
+      fit_label(text, width, most, [](std::string_view part) { return text_width(part); }).lines;
   float y = 0.5F * (area.y0 + area.y1) - 0.6F * em() * static_cast<float>(lines.size());
   for (const std::string& line : lines) {
     draw_text(list, 0.5F * (area.x0 + area.x1), y, text_color(0.7F), line, 0.5F);

@@ -64,14 +64,17 @@ struct LegendEntry {
   std::uint32_t color = 0;
   bool hidden = false;
   bool hatched = false;
+  enum class Mark : std::uint8_t { box, line, dashes } mark = Mark::box;
   std::optional<energy::Provenance> provenance;
   std::string value;    ///< beside the name
   std::string tooltip;  ///< more lines
 };
-/// Draws a legend at the cursor, in as many rows as it needs, within `width`. Returns the entry
-/// that was clicked. Widgets are named `<plot>.legend.<name>`.
+/// Draws a legend at the cursor within `width`, in as many rows as it needs but no more than
+/// `most_rows`: what is left over is named by the tooltip of "+3 more". A name wider than that ends
+/// in an ellipsis, with all of it in its tooltip. Returns the entry that was clicked. Widgets are
+/// named `<plot>.legend.<name>`.
 std::optional<std::size_t> draw_legend(std::string_view plot, std::span<const LegendEntry> entries,
-                                       float width);
+                                       float width, std::size_t most_rows = 100);
 
 /// "measured: RAPL package 0".
 std::string provenance_text(const energy::Provenance& provenance);

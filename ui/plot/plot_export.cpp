@@ -131,11 +131,11 @@ std::string bars_csv(const BarData& data) {
 
 std::string errors_csv(const ErrorData& data) {
   std::string text;
-  add_row(text, {"series", "elapsed_s", "relative_ci95", "provenance"});
+  add_row(text, {"series", "elapsed_s", "relative_ci95", "effective_samples", "provenance"});
   for (const ErrorSeries& series : data.series) {
     for (const ErrorSample& point : series.points) {
       add_row(text, {series.name, number(point.elapsed_s), csv_number(point.relative_ci95),
-                     origin(series.provenance)});
+                     csv_number(point.samples), origin(series.provenance)});
     }
   }
   return text;

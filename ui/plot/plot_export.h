@@ -20,7 +20,8 @@ std::string strip_csv(const StripData& data, const StripState& state, std::size_
 std::string selection_csv(const StripData& data, StripState& state);
 /// One row a part: group, bar, part, value, ci95, unit, provenance, detail.
 std::string bars_csv(const BarData& data);
-/// One row a point: series, elapsed_s, relative_ci95, provenance.
+/// One row a point: series, elapsed_s, relative_ci95, effective_samples, provenance; those too,
+/// that rest on too few samples to be drawn.
 std::string errors_csv(const ErrorData& data);
 
 }  // namespace encore::ui

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace encore::ui {
 
@@ -17,18 +18,19 @@ float y_of(const Axis& axis, const PlotRect& area, double percent) {
   return area.y1 - static_cast<float>(position) * area.height();
 }
 
-const ErrorSample* last_point(const ErrorSeries& series) {
-  for (auto i = series.points.rbegin(); i != series.points.rend(); ++i) {
-    if (drawable(*i)) return &*i;
-  }
-  return nullptr;
+bool enough(const ErrorSample& point) {
+  return !point.samples || *point.samples >= kLeastSamples;
 }
 
 }  // namespace
 
+const ErrorSample* last_point(const ErrorSeries& series) {
+  return !series.points.empty() && drawable(series.points.back()) ? &series.points.back() : nullptr;
+}
+
 bool drawable(const ErrorSample& point) {
   return std::isfinite(point.elapsed_s) && point.elapsed_s > 0.0 && point.relative_ci95 &&
-         std::isfinite(*point.relative_ci95) && *point.relative_ci95 > 0.0;
+         std::isfinite(*point.relative_ci95) && *point.relative_ci95 > 0.0 && enough(point);
 }
 
 Axis elapsed_axis() {
@@ -75,6 +77,7 @@ std::vector<PlacedPoint> place_errors(const ErrorSeries& series, const Axis& x, 
   std::optional<PlacedPoint> left, right;
   int column = 0;
   std::size_t begin = 0;  // of the column's points
+  bool apart = false;     // something is left out before the next one
   const auto thin = [&] {
     // Of a column's points the lowest and the highest stay, in the order of time.
     if (placed.size() - begin <= 2) return;
@@ -84,15 +87,21 @@ std::vector<PlacedPoint> place_errors(const ErrorSeries& series, const Axis& x, 
     PlacedPoint a = *top;
     PlacedPoint b = *bottom;
     if (a.index > b.index) std::swap(a, b);
+    a.apart = placed[begin].apart;
+    b.apart = false;
     placed.resize(begin);
     placed.push_back(a);
     if (b.index != a.index) placed.push_back(b);
   };
   for (std::size_t i = 0; i < series.points.size(); ++i) {
     const ErrorSample& point = series.points[i];
-    if (!drawable(point)) continue;
+    if (!drawable(point)) {
+      apart = true;
+      continue;
+    }
     const PlacedPoint here{x_of(x, area, point.elapsed_s),
-                           y_of(y, area, *point.relative_ci95 * 100.0), i};
+                           y_of(y, area, *point.relative_ci95 * 100.0), i,
+                           std::exchange(apart, false)};
     if (here.x < area.x0) {
       left = here;
     } else if (here.x > area.x1) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@ namespace {
 
 const Bar& bar_of(const BarData& data, const PlacedBar& placed) {
   return data.groups[placed.group].bars[placed.bar];
+}
+
+/// Whether a part is large enough anywhere to be seen; the tooltips have the others, too.
+bool seen(const BarPart& part, const Bar& bar) {
+  if (!part.value) return false;
+  const auto sum = bar_sum(bar);
+  return std::abs(*part.value) > 0.002 * std::abs(sum ? sum->value : 0.0);
 }
 
 /// One entry a part's name and one a bar's name, if it is told apart by hatching.
@@ -28,7 +36,7 @@ std::vector<LegendEntry> legend_entries(const BarData& data) {
   for (const BarGroup& group : data.groups) {
     for (const Bar& bar : group.bars) {
       for (const BarPart& part : bar.parts) {
-        if (known(part.name)) continue;
+        if (known(part.name) || !seen(part, bar)) continue;
         LegendEntry entry;
         entry.name = part.name;
         entry.color = plot_color(part.color);
@@ -197,6 +205,21 @@ void tooltip(const BarData& data, const PlacedPart& at) {
   ImGui::EndTooltip();
 }
 
+/// A label that had to be shortened says all of it under the mouse.
+void say_whole_label(const BarData& data, const BarLayout& layout) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (!ImGui::IsWindowHovered() || mouse.y < layout.area.y1 ||
+      mouse.y > layout.area.y1 + 2.6F * em()) {
+    return;
+  }
+  for (const PlacedLabel& label : layout.labels) {
+    float half = 0.0F;
+    for (const std::string& line : label.lines) half = std::max(half, 0.5F * text_width(line));
+    if (!label.shortened || std::abs(mouse.x - label.x) > half) continue;
+    ImGui::SetTooltip("%s", data.groups[label.group].label.c_str());
+  }
+}
+
 bool any_difference(const BarData& data) {
   return std::any_of(data.groups.begin(), data.groups.end(), [](const BarGroup& group) {
     return group.bars.size() > 1 && group.bars[0].unit == group.bars[1].unit;
@@ -211,8 +234,20 @@ BarSizes sizes_now(const BarData& data, const BarState& state) {
           .most_bar = 3.2F * em(),
           .gap = 1.2F * em(),
           .least_group = 5.0F * em(),
+          .most_group = 9.0F * em(),
           .label_lines = 2,
           .top_room = (values + changes) * em()};
+}
+
+/// Two lines, or one where all labels are short.
+float labels_height(const BarData& data, float width) {
+  const float group =
+      (width - 7.0F * em()) / static_cast<float>(std::max<std::size_t>(data.groups.size(), 1));
+  const bool one = data.groups.size() <= 64 &&
+                   std::all_of(data.groups.begin(), data.groups.end(), [&](const BarGroup& each) {
+                     return text_width(each.label) < group - em();
+                   });
+  return (one ? 1.5F : 2.6F) * em();
 }
 
 void scroll(const PlotInput& input, BarState& state) {
@@ -263,9 +298,10 @@ BarResult stacked_bars(std::string_view name, const BarData& data, BarState& sta
   const ImVec2 start = ImGui::GetCursorScreenPos();
   const ImVec2 whole{size.x > 0.0F ? size.x : room.x, size.y > 0.0F ? size.y : room.y};
   ImGui::PushID(name.data(), name.data() + name.size());
-  draw_legend(name, legend_entries(data), whole.x);
+  // The chart keeps most of the height.
+  draw_legend(name, legend_entries(data), whole.x, whole.y < 16.0F * em() ? 2 : 4);
 
-  const float labels = 2.6F * em();
+  const float labels = labels_height(data, whole.x);
   PlotRect area{start.x, ImGui::GetCursorScreenPos().y + 1.5F * em(), start.x + whole.x,
                 start.y + whole.y - labels - 0.4F * em()};
   const auto measure = [](std::string_view text) { return text_width(text); };
@@ -295,6 +331,7 @@ BarResult stacked_bars(std::string_view name, const BarData& data, BarState& sta
     }
     ImDrawList& list = *ImGui::GetWindowDrawList();
     draw_all(list, data, layout, state, ticks, result.under_mouse);
+    say_whole_label(data, layout);
     if (data.groups.empty()) draw_reason(list, area, reason);
     draw_scroll_bar(list, layout, start.y + whole.y - 0.3F * em());
     if (result.under_mouse) tooltip(data, *result.under_mouse);

@@ -17,6 +17,12 @@ bool shown(const StripSeries& series, const StripState& state) {
          !state.hidden.contains(series.name);
 }
 
+bool any_samples(const StripData& data) {
+  return std::any_of(data.series.begin(), data.series.end(), [](const StripSeries& series) {
+    return series.history != nullptr && !series.history->empty();
+  });
+}
+
 /// First and last time of all samples and spans.
 std::optional<AxisRange> whole_time(const StripData& data) {
   std::optional<AxisRange> range;
@@ -32,9 +38,26 @@ std::optional<AxisRange> whole_time(const StripData& data) {
   return range;
 }
 
+/// A live strip that is younger than its window shows no time in which there was nothing: it begins
+/// with the first sample, and grows in steps so that the scale stays still in between.
+double followed_width(const StripData& data, const StripState& state) {
+  const auto range = whole_time(data);
+  const double elapsed = *data.now_s - (range ? std::min(range->from, *data.now_s) : 0.0);
+  if (!(elapsed < state.window_s)) return state.window_s;
+  constexpr double kStep = 10.0;
+  constexpr double kAhead = 1.02;  // as follow() leaves room
+  return std::min(state.window_s, kStep * std::max(1.0, std::ceil(kAhead * elapsed / kStep)));
+}
+
 void place_x(const StripData& data, StripState& state) {
   if (data.now_s && state.follow) {
-    follow(state.x, *data.now_s, state.window_s);
+    const double width = followed_width(data, state);
+    follow(state.x, *data.now_s, width);
+    const auto range = whole_time(data);
+    const double begin = range ? std::min(range->from, *data.now_s) : 0.0;
+    if (state.x.low < begin && *data.now_s < begin + width) {
+      set_range(state.x, begin, begin + width);
+    }
     state.fit_x = false;
   } else if (state.fit_x) {
     const auto range = whole_time(data);
@@ -78,12 +101,17 @@ std::optional<std::size_t> legend(std::string_view name, const StripData& data, 
                                   float width) {
   std::vector<LegendEntry> entries;
   for (const StripSeries& series : data.series) {
+    if (series.name.empty()) continue;
     LegendEntry entry{.name = series.name,
                       .color = plot_color(series.color),
                       .hidden = state.hidden.contains(series.name),
                       .provenance = series.provenance,
                       .value = {},
                       .tooltip = series.reason};
+    if (series.idle) {
+      entry.tooltip += (entry.tooltip.empty() ? "" : "\n") + idle_text(series, data.unit) +
+                       " (the dashed line, with its 95 % interval)";
+    }
     if (series.history != nullptr && data.now_s) {
       if (const auto latest = series.history->latest()) {
         entry.value = value_text(static_cast<double>(latest->last), data.unit);
@@ -91,7 +119,7 @@ std::optional<std::size_t> legend(std::string_view name, const StripData& data, 
     }
     entries.push_back(std::move(entry));
   }
-  const auto clicked = draw_legend(name, entries, width);
+  const auto clicked = draw_legend(name, entries, width, 3);
   if (clicked) {
     const std::string& series = data.series[*clicked].name;
     if (state.hidden.erase(series) == 0) state.hidden.insert(series);
@@ -99,12 +127,14 @@ std::optional<std::size_t> legend(std::string_view name, const StripData& data, 
   return clicked;
 }
 
-void apply(const PlotInput& input, const StripData& data, StripState& state, StripResult& result) {
+/// `shown_s`: how wide the axis was before the mouse moved it.
+void apply(const PlotInput& input, const StripData& data, double shown_s, StripState& state,
+           StripResult& result) {
   if (input.x_moved) {
     // A zoom at the end of a live strip goes on following, with the new width.
     const bool at_end = data.now_s && *data.now_s <= state.x.high && *data.now_s >= state.x.low;
     const double width = state.x.high - state.x.low;
-    const bool zoomed = std::abs(width - state.window_s) > 1e-6 * width;
+    const bool zoomed = std::abs(width - shown_s) > 1e-6 * width;
     state.follow = state.follow && at_end && zoomed;
     state.window_s = width;
   }
@@ -160,6 +190,9 @@ void cursor_tooltip(const StripData& data, const std::vector<Hover>& hovers, dou
                                        energy::to_string(hover.series->provenance.origin))
                                .c_str());
   }
+  for (const StripSeries& series : data.series) {
+    if (series.idle) ImGui::TextUnformatted(idle_text(series, data.unit).c_str());
+  }
   ImGui::EndTooltip();
 }
 
@@ -184,7 +217,7 @@ std::vector<Hover> draw_inside(ImDrawList& list, const PlotRect& area, const Str
   if (state.selection) draw_selection(list, area, *state.selection, state.x);
   for (const StripSeries& series : data.series) {
     if (!shown(series, state)) continue;
-    draw_idle_level(list, area, series, state.y, data.unit);
+    draw_idle_level(list, area, series, state.y);
     const Drawn drawn = draw_series(list, area, series, state.x, state.y);
     draw_running_mean(list, area, series, state.x, state.y);
     if (!cursor) continue;
@@ -219,8 +252,9 @@ StripResult strip_chart(std::string_view name, const StripData& data, StripState
     return result;
   }
 
+  const double shown_s = state.x.high - state.x.low;
   const PlotInput input = plot_input(name, area, &state.x, &state.y, state.drag_from);
-  apply(input, data, state, result);
+  apply(input, data, shown_s, state, result);
   result.hovered = input.hovered;
   if (input.hovered) {
     const double share =
@@ -232,7 +266,10 @@ StripResult strip_chart(std::string_view name, const StripData& data, StripState
   draw_ground(list, area);
   draw_spans(list, area, data.spans, state.x);
   draw_x_axis(list, area, state.x, axis_ticks(state.x, x_tick_room(area.width())), below);
-  draw_y_axis(list, area, state.y, axis_ticks(state.y, y_tick_room(area.height())), Side::left);
+  // Without samples there is no scale: numbers on it would look like data.
+  if (any_samples(data)) {
+    draw_y_axis(list, area, state.y, axis_ticks(state.y, y_tick_room(area.height())), Side::left);
+  }
   const auto kept = state.selection;
   if (input.dragging) state.selection = input.dragging;
   const std::vector<Hover> hovers = draw_inside(list, area, data, state, result.cursor_s);

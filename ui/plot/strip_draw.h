@@ -16,8 +16,11 @@ using Drawn = std::vector<Bucket>;
 /// One series: the envelope of merged samples, the line, the marks of single ones.
 Drawn draw_series(ImDrawList& list, const PlotRect& area, const StripSeries& series, const Axis& x,
                   const Axis& y);
+/// A dashed line with its band; no words, which would lie on the curve.
 void draw_idle_level(ImDrawList& list, const PlotRect& area, const StripSeries& series,
-                     const Axis& y, const std::string& unit);
+                     const Axis& y);
+/// "idle 12.0 ±0.3 W"; for a series with an idle level.
+std::string idle_text(const StripSeries& series, const std::string& unit);
 void draw_running_mean(ImDrawList& list, const PlotRect& area, const StripSeries& series,
                        const Axis& x, const Axis& y);
 

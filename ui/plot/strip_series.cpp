@@ -12,8 +12,12 @@ namespace {
 
 constexpr std::size_t kMostBuckets = 4096;
 
+/// Two pixels a bucket: where samples are dense, the line is then a mean that can be followed, and
+/// what it hides is in the paler envelope behind it.
 std::size_t buckets_for(const PlotRect& area) {
-  return static_cast<std::size_t>(std::clamp(area.width(), 2.0F, static_cast<float>(kMostBuckets)));
+  constexpr float kPixels = 2.0F;
+  return static_cast<std::size_t>(
+      std::clamp(area.width() / kPixels, 2.0F, static_cast<float>(kMostBuckets)));
 }
 
 /// Collects a line and draws it piece by piece.
@@ -148,7 +152,7 @@ Drawn draw_series(ImDrawList& list, const PlotRect& area, const StripSeries& ser
                   const Axis& y) {
   if (series.history == nullptr || series.history->empty()) return {};
   InSight sight = in_sight(*series.history, x, area);
-  const std::uint32_t envelope = plot_color(series.color, 0.35F);
+  const std::uint32_t envelope = plot_color(series.color, 0.28F);
   draw_band(list, area, sight, series.history->reading(), x, y, plot_color(series.color, 0.2F));
   for (const Bucket& bucket : sight.buckets) {
     if (bucket.count > 1 && bucket.max > bucket.min) {
@@ -162,7 +166,7 @@ Drawn draw_series(ImDrawList& list, const PlotRect& area, const StripSeries& ser
 }
 
 void draw_idle_level(ImDrawList& list, const PlotRect& area, const StripSeries& series,
-                     const Axis& y, const std::string& unit) {
+                     const Axis& y) {
   if (!series.idle || !std::isfinite(series.idle->value)) return;
   const double value = series.idle->value;
   const double band = series.idle->half_width.value_or(0.0);
@@ -173,10 +177,10 @@ void draw_idle_level(ImDrawList& list, const PlotRect& area, const StripSeries& 
   }
   dashed_line(list, {area.x0, middle}, {area.x1, middle}, plot_color(series.color, 0.9F),
               std::max(1.0F, 0.09F * em()));
-  const std::string text = fmt::format("idle {}", value_text(value, series.idle->half_width, unit));
-  if (middle > area.y0 && middle < area.y1 + em()) {
-    draw_text(list, area.x1 - 0.4F * em(), middle - 1.15F * em(), text_color(0.7F), text, 1.0F);
-  }
+}
+
+std::string idle_text(const StripSeries& series, const std::string& unit) {
+  return fmt::format("idle {}", value_text(series.idle->value, series.idle->half_width, unit));
 }
 
 void draw_running_mean(ImDrawList& list, const PlotRect& area, const StripSeries& series,
