@@ -17,6 +17,8 @@ namespace encore::app {
 
 namespace {
 
+constexpr std::uint32_t kMostInSoftware = 6'000;
+constexpr std::uint32_t kMostMoving = 1'500;
 constexpr std::uint32_t kNoValue = 0xFF808080U;
 constexpr std::uint32_t kSelected = 0xFF30D8FFU;  // orange-yellow; red is the lowest byte
 constexpr std::uint32_t kRayBefore = 0xFF50A0FFU;
@@ -71,7 +73,7 @@ std::optional<glm::vec4> section_of(const OverlayScene& scene) {
 }  // namespace
 
 OverlayPicture::OverlayPicture(std::shared_ptr<renderer::gl::Context> context)
-    : overlay_(std::move(context)) {}
+    : overlay_(context), software_(context->capabilities().software) {}
 
 bool OverlayPicture::same(const OverlayScene& scene) const {
   const auto& a = drawn_;
@@ -81,8 +83,8 @@ bool OverlayPicture::same(const OverlayScene& scene) const {
          a.background_serial == b.background_serial && a.distances == b.distances &&
          a.settings == b.settings && a.with_nodes == b.with_nodes &&
          a.selected_node == b.selected_node && a.ray_step == b.ray_step &&
-         a.with_ray == b.with_ray && a.other_camera == b.other_camera &&
-         a.other_aspect == b.other_aspect;
+         a.with_ray == b.with_ray && (!software_ || a.moving == b.moving) &&
+         a.other_camera == b.other_camera && a.other_aspect == b.other_aspect;
 }
 
 void OverlayPicture::send_nodes(const OverlayScene& scene) {
@@ -150,6 +152,9 @@ void OverlayPicture::choose_nodes(const OverlayScene& scene) {
   query.view = view_of(scene);
   query.smallest_pixels = settings.smallest_pixels;
   query.budget = static_cast<std::uint32_t>(std::max(settings.most_nodes, 1));
+  // Drawn by the window's own thread on the processor, more would hold the window up.
+  if (software_)
+    query.budget = std::min(query.budget, scene.moving ? kMostMoving : kMostInSoftware);
   query.order = accel::NodeOrder::farthest_first;
   selection_ = accel::select_nodes(*scene.output->nodes, query);
 }

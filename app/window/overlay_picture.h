@@ -29,6 +29,7 @@ struct OverlayScene {
   std::optional<std::uint32_t> selected_node;
   std::size_t ray_step = 0;
   bool with_ray = false;
+  bool moving = false;  ///< the camera is: fewer nodes do where drawing them is slow
   std::optional<scene::Camera> other_camera;  ///< whose frustum is drawn
   double other_aspect = 1.0;
 };
@@ -63,6 +64,7 @@ class OverlayPicture {
   [[nodiscard]] bool same(const OverlayScene& scene) const;
 
   renderer::OverlayRenderer overlay_;
+  bool software_;  ///< the device is a rasteriser in software
   OverlayScene drawn_;
   bool any_ = false;
   std::shared_ptr<const accel::NodeTable> sent_nodes_;

@@ -80,6 +80,7 @@ void Screen::update_pane(std::size_t pane, const std::shared_ptr<const PaneOutpu
   scene.with_nodes = nodes;
   if (inspected) scene.selected_node = state.selected_node;
   scene.with_ray = ray;
+  scene.moving = state.camera_moving || state.settings.animation.playing;
   scene.ray_step = state.ray_step;
   shown.texture = draw_over(part, scene);
   if (part.overlay && nodes) {
@@ -125,6 +126,7 @@ void Screen::update_free(const std::shared_ptr<const PaneOutput>& output, const 
   scene.with_nodes = true;
   scene.selected_node = state.selected_node;
   scene.with_ray = view.pick.has_value();
+  scene.moving = state.camera_moving || state.settings.animation.playing;
   scene.ray_step = state.ray_step;
   scene.other_camera = state.camera;
   const auto& pane = view.panes[state.inspected_pane];

@@ -89,4 +89,17 @@ TEST_F(ReferenceCompiler, AcceptsEveryWayToRefit) {
   EXPECT_EQ(complaints("link_parents.comp", "comp", {"ENCORE_GROUP_SIZE 128"}), "");
 }
 
+TEST_F(ReferenceCompiler, AcceptsEveryWayToDrawAnOverlay) {
+  for (const char* part : {"fill", "edge"}) {
+    for (const std::vector<std::string>& defines :
+         {std::vector<std::string>{}, std::vector<std::string>{"BOXES"}}) {
+      const std::string file = std::string("overlay_") + part;
+      EXPECT_EQ(complaints(file + ".vert", "vert", defines), "") << defines.size();
+      EXPECT_EQ(complaints(file + ".frag", "frag", defines), "") << defines.size();
+    }
+  }
+  EXPECT_EQ(complaints("overlay_backdrop.vert", "vert", {}), "");
+  EXPECT_EQ(complaints("overlay_backdrop.frag", "frag", {}), "");
+}
+
 }  // namespace
