@@ -7,6 +7,7 @@
 #include "app/window/picture_file.h"
 #include "app/window/screen.h"
 #include "app/window/settings_file.h"
+#include "app/window/steady_time.h"
 #include "app/window/widget_map_file.h"
 #include "scene/sample_scenes.h"
 #include "ui/panels/panels.h"
@@ -17,7 +18,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -43,10 +43,6 @@ constexpr double kIdle_s = 0.5;
 constexpr int kFramesAfterInput = 3;
 constexpr double kSaveAfter_s = 2.0;
 
-double steady_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 ImageSize window_size(const WindowOptions& options, const ui::Preferences& preferences) {
   if (options.size) return parse_size(*options.size);
   return {preferences.window_width, preferences.window_height};
@@ -61,12 +57,13 @@ class Application {
         kept_(std::move(kept)),
         window_({window_size(options, kept_.preferences).width,
                  window_size(options, kept_.preferences).height, options.gl_debug}),
-        screen_(renderer::gl::adopt_current_context()),
+        context_(renderer::gl::adopt_current_context()),
+        screen_(context_),
         engine_({options.gl_device, options.measuring, options.search_path, GlfwWindow::wake,
                  options.threads}) {
     state_.settings = kept_.settings;
     state_.preferences = kept_.preferences;
-    for (const std::string& warning : warnings) tell(warning, true);
+    for (const std::string& warning : warnings) ui::tell(state_, warning, true);
     ui::enable_widget_map(!options.widget_map.empty());
     engine_.open_scene(options.scene.empty() ? std::string(scene::kDefaultSceneName)
                                              : options.scene);
@@ -89,12 +86,12 @@ class Application {
   void save_text(const ui::SaveText& save);
   void keep_settings(bool now);
   void note_first_pictures();
-  void tell(std::string text, bool problem = false);
 
   const WindowOptions& options_;
   const std::atomic<bool>& stop_;
   KeptState kept_;
   GlfwWindow window_;
+  std::shared_ptr<renderer::gl::Context> context_;  ///< the window's
   Screen screen_;
   Engine engine_;
   ui::View view_;
@@ -113,13 +110,6 @@ class Application {
   std::optional<double> first_picture_s_;  ///< since the program was started
   std::optional<double> all_pictures_s_;
 };
-
-void Application::tell(std::string text, bool problem) {
-  ui::Notice notice;
-  notice.text = std::move(text);
-  notice.problem = problem;
-  state_.notices.push_back(std::move(notice));
-}
 
 void Application::apply_look() {
   const float scale = ui::ui_scale(state_.preferences, window_.content_scale());
@@ -193,9 +183,9 @@ void Application::save_picture(const ui::SavePicture& save) {
       return;
     }
     screen_.save(what, named.file);
-    tell("saved " + named.file.string());
+    ui::tell(state_, "saved " + named.file.string());
   } catch (const std::exception& error) {
-    tell(error.what(), true);
+    ui::tell(state_, error.what(), true);
   }
 }
 
@@ -204,9 +194,10 @@ void Application::save_text(const ui::SaveText& save) {
   file << save.text;
   file.close();
   if (file) {
-    tell("saved " + save.file.string());
+    ui::tell(state_, "saved " + save.file.string());
   } else {
-    tell(fmt::format("cannot write {}: choose another folder", save.file.string()), true);
+    ui::tell(state_, fmt::format("cannot write {}: choose another folder", save.file.string()),
+             true);
   }
 }
 
@@ -219,7 +210,7 @@ void Application::carry_out(const ui::Commands& commands) {
       save_text(*text);
     } else if (const auto* copy = std::get_if<ui::CopyText>(&command)) {
       window_.copy_text(copy->text);
-      if (!copy->told.empty()) tell(copy->told);
+      if (!copy->told.empty()) ui::tell(state_, copy->told);
     } else if (const auto* pick = std::get_if<ui::PickNode>(&command)) {
       state_.selected_node = screen_.node_at(pick->x, pick->y);
     } else if (std::holds_alternative<ui::ToggleFullScreen>(command)) {
@@ -243,7 +234,7 @@ void Application::keep_settings(bool now) {
   if (!now && time - changed_s_ < kSaveAfter_s) return;
   kept_ = {state_.settings, state_.preferences};
   for (const std::string& problem : write_kept_state(settings_files(), kept_)) {
-    tell(problem, true);
+    ui::tell(state_, problem, true);
   }
   changed_s_ = 0.0;
 }
@@ -270,8 +261,7 @@ void Application::frame() {
   screen_.update({engine_.output(0), engine_.output(1)}, state_, view_);
   statistics_.fill(view_.window);
   view_.window.opengl = window_.renderer_name();
-  view_.window.opengl_software = view_.window.opengl.find("llvmpipe") != std::string::npos ||
-                                 view_.window.opengl.find("softpipe") != std::string::npos;
+  view_.window.opengl_software = context_->capabilities().software;
   view_.window.monitor_scale = window_.content_scale();
 
   ui::clear_widget_map();
@@ -291,9 +281,9 @@ void Application::frame() {
       } else {
         write_rgb_png(capture->file, pixels, width, 0, 0, width, window_.height());
       }
-      tell("saved " + capture->file.string());
+      ui::tell(state_, "saved " + capture->file.string());
     } catch (const std::exception& error) {
-      tell(error.what(), true);
+      ui::tell(state_, error.what(), true);
     }
   }
   carry_out(commands);

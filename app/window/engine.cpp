@@ -59,20 +59,6 @@ std::pair<int, int> size_of(const ui::PaneSettings& pane, const ui::UiState::Are
   return {std::min(area.width, 16384), std::min(area.height, 16384)};
 }
 
-void add_notice(ui::UiState& state, std::string text, bool problem) {
-  ui::Notice notice;
-  notice.text = std::move(text);
-  notice.problem = problem;
-  state.notices.push_back(std::move(notice));
-}
-
-void remember_recent(std::vector<std::string>& recent, const std::string& name) {
-  constexpr std::size_t kMost = 12;
-  std::erase(recent, name);
-  recent.insert(recent.begin(), name);
-  if (recent.size() > kMost) recent.resize(kMost);
-}
-
 }  // namespace
 
 Engine::Engine(Setup setup) : setup_(std::move(setup)) {
@@ -118,7 +104,7 @@ void Engine::take_scene(ui::UiState& state) {
   if (auto loaded = loader_.take_scene()) {
     if (!loaded->scene) {
       scene_problem_ = loaded->problem;
-      if (!loaded->problem.empty()) add_notice(state, loaded->problem, true);
+      if (!loaded->problem.empty()) ui::tell(state, loaded->problem, true);
     } else {
       const bool reloaded = scene_ && scene_name_ == loaded->name;
       scene_ = loaded->scene;
@@ -138,7 +124,7 @@ void Engine::take_scene(ui::UiState& state) {
         input.pick.reset();
       }
       attribution_->clear();
-      remember_recent(state.preferences.recent_scenes, scene_name_);
+      ui::remember(state.preferences.recent_scenes, scene_name_);
     }
   }
   if (auto info = loader_.take_info()) scene_info_ = std::move(info);
@@ -153,10 +139,10 @@ void Engine::take_tasks(ui::UiState& state) {
       session_plots_.show(*session_);
       session_configurations_ = views_of(*session_);
       state.show_session = true;
-      remember_recent(state.preferences.recent_sessions, session_->folder.string());
+      ui::remember(state.preferences.recent_sessions, session_->folder.string());
     } else if (!result->cancelled) {
       session_problem_ = result->error;
-      add_notice(state, result->error, true);
+      ui::tell(state, result->error, true);
     }
   }
   if (auto result = other_task_.take()) {
@@ -172,21 +158,21 @@ void Engine::take_tasks(ui::UiState& state) {
         comparison_warnings_.push_back("only in the second: " + name);
       }
       if (changes_.empty()) {
-        add_notice(state, "the two sessions have no configuration in common", true);
+        ui::tell(state, "the two sessions have no configuration in common", true);
       }
     } else if (!result->cancelled) {
       session_problem_ = result->error;
-      add_notice(state, result->error, true);
+      ui::tell(state, result->error, true);
     }
   }
   if (auto result = export_task_.take()) {
     if (result->value) {
-      add_notice(state,
-                 fmt::format("exported {} files to {}", result->value->files,
-                             result->value->folder.string()),
-                 false);
+      ui::tell(state,
+               fmt::format("exported {} files to {}", result->value->files,
+                           result->value->folder.string()),
+               false);
     } else if (!result->cancelled) {
-      add_notice(state, result->error, true);
+      ui::tell(state, result->error, true);
     }
   }
   if (auto result = doctor_task_.take()) {
@@ -341,8 +327,8 @@ void Engine::apply(ui::UiState& state, double now_s) {
     };
     if (std::all_of(configurations_.begin(), configurations_.end(), reached)) {
       state.measuring = false;
-      add_notice(state, fmt::format("every configuration is known to {} %", measure.target_percent),
-                 false);
+      ui::tell(state, fmt::format("every configuration is known to {} %", measure.target_percent),
+               false);
     }
   }
   for (std::size_t pane = 0; pane < ui::kPaneCount; ++pane) {

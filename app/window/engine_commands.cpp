@@ -16,13 +16,6 @@ struct Overloaded : Functions... {
   using Functions::operator()...;
 };
 
-void add_notice(ui::UiState& state, std::string text, bool problem = false) {
-  ui::Notice notice;
-  notice.text = std::move(text);
-  notice.problem = problem;
-  state.notices.push_back(std::move(notice));
-}
-
 }  // namespace
 
 void Engine::examine_sensors() {
@@ -166,7 +159,7 @@ bool Engine::execute(const ui::Command& command, ui::UiState& state) {
                    if (session_) {
                      open_session(compare.folder, true);
                    } else {
-                     add_notice(state, "open the session to compare with first", true);
+                     ui::tell(state, "open the session to compare with first", true);
                    }
                    return true;
                  },
@@ -196,7 +189,7 @@ bool Engine::execute(const ui::Command& command, ui::UiState& state) {
                    try {
                      use_energy(state.settings.energy);
                    } catch (const std::exception& error) {
-                     add_notice(state, error.what(), true);
+                     ui::tell(state, error.what(), true);
                    }
                    return true;
                  },

@@ -1,22 +1,18 @@
 #include "app/window/engine.h"
 #include "app/window/figures_view.h"
 #include "app/window/pane_rows.h"
+#include "app/window/steady_time.h"
 #include "app/workloads.h"
 #include "ui/plot/sample_history.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace encore::app {
 
 namespace {
-
-double steady_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 ui::WorkView work_of(bool active, std::string doing, std::optional<double> progress,
                      bool cancellable, double elapsed_s) {

@@ -1,9 +1,10 @@
 #include "app/window/frame_statistics.h"
 
+#include "app/window/steady_time.h"
+
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
@@ -17,10 +18,6 @@ namespace {
 constexpr std::size_t kMostTimes = 100'000;
 constexpr std::size_t kRecentTimes = 300;
 constexpr double kRecent_s = 3.0;
-
-double steady_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 double processor_time() {
   timespec time{};

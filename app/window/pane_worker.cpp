@@ -3,6 +3,7 @@
 #include "app/window/pane_inspection.h"
 #include "app/window/pane_picture.h"
 #include "app/window/pane_rows.h"
+#include "app/window/steady_time.h"
 #include "app/window/thread_priority.h"
 #include "app/workload_frames.h"
 #include "app/workloads.h"
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <utility>
@@ -24,10 +24,6 @@ constexpr std::size_t kMostMarks = 64;
 /// A picture that takes no longer is drawn whole while the camera moves.
 constexpr double kQuickFrame_s = 0.045;
 constexpr int kCoarsest = 12;
-
-double steady_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// The same without anybody who looks at the host's nodes: what is measured.
 PaneRequest unobserved(PaneRequest request) {
@@ -229,17 +225,17 @@ void PaneWorker::explore(const PaneRequest& request) {
   }
   work.tracer.prepare(request, work.log, &watch_);
   if (!work.picture.whole(work.tracer, request)) set_status(ui::PaneState::working, "tracing");
-  if (!trace(request, watch_)) return;
+  if (!trace(request)) return;
   work.picture.color(request);
   if (!work.inspection.look(work.tracer, request, &cancel_trace_)) {
-    publish(request);
+    publish();
     return;
   }
   set_status(ui::PaneState::ready);
-  publish(request);
+  publish();
 }
 
-bool PaneWorker::trace(const PaneRequest& request, const accel::BuildWatch&) {
+bool PaneWorker::trace(const PaneRequest& request) {
   Work& work = *work_;
   const double pixels = double(request.width) * request.height;
   const double whole_s = work.seconds_a_pixel * pixels;
@@ -249,7 +245,7 @@ bool PaneWorker::trace(const PaneRequest& request, const accel::BuildWatch&) {
     // A coarse picture is short: it is always finished, so that there is something to see.
     work.picture.trace(work.tracer, request, divisor, work.log, nullptr);
     work.picture.color(request);
-    publish(request);
+    publish();
     work.log.clear();
     if (superseded(request)) return false;
   }
@@ -290,7 +286,7 @@ void PaneWorker::measure(const PaneRequest& request, SlotJob& job) {
   work.frame = figures;
   work.inspection.look(work.tracer, request, &cancel_trace_);
   set_status(ui::PaneState::ready);
-  publish(request);
+  publish();
 }
 
 void PaneWorker::measure_operations(const PaneRequest& request, const SlotJob& job) {
@@ -332,7 +328,7 @@ void PaneWorker::measure_operations(const PaneRequest& request, const SlotJob& j
   setup_.attribution->slot_ended();
 }
 
-void PaneWorker::publish(const PaneRequest& request) {
+void PaneWorker::publish() {
   Work& work = *work_;
   auto output = std::make_shared<PaneOutput>();
   output->serial = ++work.serial;
@@ -344,7 +340,6 @@ void PaneWorker::publish(const PaneRequest& request) {
   output->refits_on_device = work.tracer.fitted_on_device();
   output->triangles = work.tracer.triangles().triangles.size();
   output->memory_bytes += work.tracer.memory_bytes();
-  (void)request;
   {
     const std::lock_guard lock(mutex_);
     output_ = std::move(output);

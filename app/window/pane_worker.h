@@ -65,9 +65,9 @@ class PaneWorker {
   void explore(const PaneRequest& request);
   void measure(const PaneRequest& request, SlotJob& job);
   void measure_operations(const PaneRequest& request, const SlotJob& job);
-  bool trace(const PaneRequest& request, const accel::BuildWatch& watch);
+  bool trace(const PaneRequest& request);
   void set_status(ui::PaneState state, std::string doing = {}, std::string problem = {});
-  void publish(const PaneRequest& request);
+  void publish();
   [[nodiscard]] bool superseded(const PaneRequest& request) const;
 
   Setup setup_;

@@ -1,24 +1,16 @@
 #include "app/window/scene_loader.h"
 
+#include "app/window/steady_time.h"
 #include "app/window/thread_priority.h"
 #include "scene/scene_file.h"
 #include "scene/triangles.h"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <new>
 #include <utility>
 
 namespace encore::app {
-
-namespace {
-
-double steady_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-}  // namespace
 
 SceneLoader::~SceneLoader() {
   cancel();
