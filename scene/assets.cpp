@@ -75,6 +75,15 @@ const std::vector<Material>* own_materials(const Instance& instance) {
   return most;
 }
 
+/// Whether some mesh that an instance shows has texture coordinates.
+bool has_texcoords(const Instance& instance) {
+  if (const auto* sequence = std::get_if<FrameSequence>(&instance.motion)) {
+    return std::any_of(sequence->frames.begin(), sequence->frames.end(),
+                       [](const auto& frame) { return !frame->mesh.texcoords.empty(); });
+  }
+  return instance.model && !instance.model->mesh.texcoords.empty();
+}
+
 void append(Scene& scene, Instance instance, const Material* material, std::size_t material_count) {
   instance.first_material = static_cast<std::uint32_t>(scene.materials.size());
   const auto* own = own_materials(instance);
@@ -93,7 +102,7 @@ void append(Scene& scene, Instance instance, const Material* material, std::size
 }  // namespace
 
 Assets::Assets(fs::path folder, std::vector<fs::path> search_path)
-    : folder_(std::move(folder)), search_path_(std::move(search_path)) {}
+    : folder_(std::move(folder)), search_path_(std::move(search_path)), textures_(search_path_) {}
 
 fs::path Assets::find(const std::string& file, bool want_folder, const std::string& what,
                       const std::string& place) const {
@@ -127,13 +136,22 @@ std::shared_ptr<const Model> Assets::model(const std::string& file, const std::s
   auto& slot = models_[path];
   if (slot) return slot;
   try {
-    Model model = read_model(path);
+    Model model = read_model(path, &textures_);
     warnings.add(model.warnings);
     slot = std::make_shared<const Model>(std::move(model));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", place, error.what()));
   }
   return slot;
+}
+
+std::shared_ptr<const Texture> Assets::texture(const std::string& file, const std::string& place) {
+  const fs::path path = find(file, false, "texture", place);
+  try {
+    return textures_.read(path);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", place, error.what()));
+  }
 }
 
 std::shared_ptr<const Scene> Assets::generated(const std::string& name, const std::string& place) {
@@ -191,7 +209,15 @@ void Assets::add(Scene& scene, Instance instance, const Material* material,
   if (scene.materials.size() + material_count > kMaxMaterials) {
     throw InputError(fmt::format("{}: more than {} materials in one scene", place, kMaxMaterials));
   }
-  append(scene, std::move(instance), material, material_count);
+  if (material == nullptr || material->diffuse_texture == nullptr || has_texcoords(instance)) {
+    append(scene, std::move(instance), material, material_count);
+    return;
+  }
+  scene.warnings.add(fmt::format(
+      "{}: the material's texture is left out: the model has no texture coordinates", place));
+  Material plain = *material;
+  plain.diffuse_texture = nullptr;
+  append(scene, std::move(instance), &plain, material_count);
 }
 
 Bounds bounds_at_start(const Scene& scene) {

@@ -2,6 +2,7 @@
 
 #include "scene/bounds.h"
 #include "scene/scene.h"
+#include "scene/texture_reader.h"
 
 #include <filesystem>
 #include <map>
@@ -32,6 +33,9 @@ class Assets {
   std::shared_ptr<const Model> model(const std::string& file, const std::string& place,
                                      Warnings& warnings);
 
+  /// A picture file for a material. Throws InputError as model() does.
+  std::shared_ptr<const Texture> texture(const std::string& file, const std::string& place);
+
   /// A sample scene or a basic shape (a scene of one instance) by name. Throws InputError with the
   /// nearest name.
   std::shared_ptr<const Scene> generated(const std::string& name, const std::string& place);
@@ -41,8 +45,9 @@ class Assets {
   std::vector<std::string> frames_of_folder(const std::string& folder, const std::string& place);
 
   /// Adds an instance with either its model's own materials or, if `material` is given, that one
-  /// for all its triangles. Throws InputError, led by `place`, at the limits above; what counts of
-  /// a sequence is its largest frame.
+  /// for all its triangles. Textures stay only where a mesh has texture coordinates; one that was
+  /// given for nothing is a warning. Throws InputError, led by `place`, at the limits above; what
+  /// counts of a sequence is its largest frame.
   void add(Scene& scene, Instance instance, const Material* material, const std::string& place);
 
  private:
@@ -53,6 +58,7 @@ class Assets {
   std::vector<std::filesystem::path> search_path_;
   std::map<std::filesystem::path, std::shared_ptr<const Model>> models_;
   std::map<std::string, std::shared_ptr<const Scene>> generated_;
+  TextureSet textures_;
   std::uint64_t triangles_ = 0;  ///< added so far
 };
 

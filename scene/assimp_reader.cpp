@@ -51,8 +51,21 @@ Material convert(const aiMaterial& from) {
   if (get(AI_MATKEY_SHININESS)) to.shininess = std::max(value, 0.0F);
   if (get(AI_MATKEY_OPACITY)) to.opacity = std::clamp(value, 0.0F, 1.0F);
   if (get(AI_MATKEY_REFRACTI) && value > 0.0F) to.index_of_refraction = value;
+  // What glTF calls transmission is what others call 1 - opacity.
+  if (get(AI_MATKEY_TRANSMISSION_FACTOR) && value > 0.0F) {
+    to.opacity *= 1.0F - std::min(value, 1.0F);
+  }
   if (get(AI_MATKEY_REFLECTIVITY)) to.reflectivity = std::clamp(value, 0.0F, 1.0F);
   return to;
+}
+
+/// The diffuse texture that a material names; empty if there is none.
+std::string texture_of(const aiMaterial& from) {
+  for (const aiTextureType type : {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR}) {
+    aiString path;
+    if (from.GetTexture(type, 0, &path) == AI_SUCCESS && path.length > 0) return path.C_Str();
+  }
+  return {};
 }
 
 class SceneMerger {
@@ -64,6 +77,7 @@ class SceneMerger {
     find_attributes();
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i) {
       packed_.model.materials.push_back(convert(*scene_.mMaterials[i]));
+      add_texture(texture_of(*scene_.mMaterials[i]));
     }
     // Depth first, children in their order. A stack of our own: files can nest nodes deeper than
     // calls may nest.
@@ -100,6 +114,15 @@ class SceneMerger {
       texcoords_ = texcoords_ || mesh.HasTextureCoords(0);
       colors_ = colors_ || mesh.HasVertexColors(0);
     }
+  }
+
+  void add_texture(std::string texture) {
+    // "*0" is the first one within the file; others lie there under their names.
+    const bool embedded =
+        !texture.empty() &&
+        (texture.front() == '*' || scene_.GetEmbeddedTexture(texture.c_str()) != nullptr);
+    packed_.embedded_textures += embedded ? 1 : 0;
+    packed_.textures.push_back(embedded ? std::string() : std::move(texture));
   }
 
   void add_mesh(const aiMesh& mesh, const aiMatrix4x4& transform) {

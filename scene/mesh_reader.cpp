@@ -61,8 +61,32 @@ ChildLimits limits_for(std::uint64_t bytes) {
   throw InputError(name + what);
 }
 
+/// The textures that an imported model names; an empty folder means that none is looked up.
+void load_textures(PackedModel& packed, const std::string& name,
+                   const std::filesystem::path& folder, TextureSet& textures) {
+  if (packed.model.mesh.texcoords.empty()) return;
+  Warnings& warnings = packed.model.warnings;
+  if (packed.embedded_textures > 0) {
+    warnings.add(name + ": " + counted(packed.embedded_textures, "texture") +
+                 " within the model file left out; save textures as files of their own");
+  }
+  const std::size_t count = std::min(packed.textures.size(), packed.model.materials.size());
+  for (std::size_t i = 0; i < count && !folder.empty(); ++i) {
+    if (packed.textures[i].empty()) continue;
+    Material& material = packed.model.materials[i];
+    material.diffuse_texture =
+        textures.load(packed.textures[i], folder, name, material.name, warnings);
+  }
+}
+
+/// Where an imported model's textures come from.
+struct TextureSource {
+  std::filesystem::path folder;  ///< empty: none is looked up
+  TextureSet& set;
+};
+
 Model import_guarded(const std::function<PackedModel()>& import, std::uint64_t bytes,
-                     const std::string& name) {
+                     const std::string& name, const TextureSource& textures) {
   using Outcome = ChildResult::Outcome;
   PackedModel packed;
   report_load(0.0);
@@ -95,6 +119,7 @@ Model import_guarded(const std::function<PackedModel()>& import, std::uint64_t b
     fail(name, Outcome::crashed);
   }
   finish_model(packed.model, name, packed.dropped);
+  load_textures(packed, name, textures.folder, textures.set);
   packed.model.name = name;
   return std::move(packed.model);
 }
@@ -118,10 +143,26 @@ void reject_unknown(std::string_view bytes, const std::string& extension, const 
                    "known are" + all_extensions());
 }
 
+Model import_bytes(std::span<const std::byte> bytes, const std::string& extension,
+                   const std::string& name, const TextureSource& textures) {
+  if (bytes.empty()) {
+    throw InputError(name + ": the file is empty (0 bytes); get a whole copy of it");
+  }
+  const std::string lower = lower_extension("name" + extension);
+  if (lower == ".ply") return read_ply(as_text(bytes), name);
+  if (lower == ".obj") return read_obj(as_text(bytes), name, {});
+  reject_unknown(as_text(bytes), lower, name);
+  return import_guarded([&] { return import_with_assimp(as_text(bytes), lower); }, bytes.size(),
+                        name, textures);
+}
+
 }  // namespace
 
-Model read_model(const std::filesystem::path& path) {
+Model read_model(const std::filesystem::path& path, TextureSet* textures) {
   const std::string name = path.string();
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  TextureSet own;
+  TextureSet& set = textures != nullptr ? *textures : own;
   note_load(path.filename().string());
   std::string bytes = in_load_part(0.0, 0.1, [&path] { return read_model_file(path); });
   const LoadPart part(0.1, 1.0);
@@ -132,14 +173,14 @@ Model read_model(const std::filesystem::path& path) {
 
   Model model;
   if (extension == ".obj") {
-    model = read_obj(bytes, name, path.has_parent_path() ? path.parent_path() : ".");
+    model = read_obj(bytes, name, folder, &set);
   } else if (extension == by_name && extension != ".ply") {
     // By path, so that the importer finds the files that this one refers to.
     const std::uint64_t size = bytes.size();
     bytes = {};
-    model = import_guarded([&path] { return import_with_assimp(path); }, size, name);
+    model = import_guarded([&path] { return import_with_assimp(path); }, size, name, {folder, set});
   } else {
-    model = read_with_assimp(std::as_bytes(std::span(bytes)), extension, name);
+    model = import_bytes(std::as_bytes(std::span(bytes)), extension, name, {folder, set});
   }
   if (!by_name.empty() && extension != by_name) {
     model.warnings.add(name + ": named " + by_name + " but holds " + extension + "; read as " +
@@ -151,15 +192,8 @@ Model read_model(const std::filesystem::path& path) {
 
 Model read_with_assimp(std::span<const std::byte> bytes, const std::string& extension,
                        const std::string& name) {
-  if (bytes.empty()) {
-    throw InputError(name + ": the file is empty (0 bytes); get a whole copy of it");
-  }
-  const std::string lower = lower_extension("name" + extension);
-  if (lower == ".ply") return read_ply(as_text(bytes), name);
-  if (lower == ".obj") return read_obj(as_text(bytes), name, {});
-  reject_unknown(as_text(bytes), lower, name);
-  return import_guarded([&] { return import_with_assimp(as_text(bytes), lower); }, bytes.size(),
-                        name);
+  TextureSet none;
+  return import_bytes(bytes, extension, name, {{}, none});
 }
 
 std::vector<std::string> supported_extensions() {

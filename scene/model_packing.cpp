@@ -85,7 +85,7 @@ class Unpacker {
   bool ok_ = true;
 };
 
-// One list of the fields for both ways.
+// One list of the fields for both ways. A material's texture is not among them: see PackedModel.
 template <typename Text, typename Visitor>
 requires std::is_same_v<std::remove_const_t<Text>, std::string>
 void visit(Text& text, Visitor& visitor) {
@@ -128,6 +128,8 @@ void visit(AnyPacked& packed, Visitor& visitor) {
   visitor(packed.dropped.lines);
   visitor(packed.dropped.first_bad_index);
   visitor(packed.dropped.first_non_finite);
+  visitor(packed.textures);
+  visitor(packed.embedded_textures);
 }
 
 }  // namespace

@@ -49,8 +49,11 @@ struct Face {
 // come after them, so nothing is put together before the end.
 class ObjContent : public ObjLineFeed {
  public:
-  ObjContent(std::string_view text, std::string source, std::filesystem::path folder)
-      : ObjLineFeed(text), source_(std::move(source)), materials_(std::move(folder), warnings_) {}
+  ObjContent(std::string_view text, std::string source, std::filesystem::path folder,
+             TextureSet& textures)
+      : ObjLineFeed(text),
+        source_(std::move(source)),
+        materials_(std::move(folder), textures, warnings_) {}
 
   void parse();
   Model build();
@@ -264,7 +267,7 @@ Model ObjContent::build() {
                   [&face] { return std::string(":").append(std::to_string(face.line)); });
     first += face.corners;
   }
-  model.materials = materials_.take();
+  model.materials = materials_.take(!model.mesh.texcoords.empty());
   model.warnings = std::move(warnings_);
   if (missing_attributes_ > 0) {
     model.warnings.add(source_ + ": " + counted(missing_attributes_, "corner") +
@@ -293,12 +296,13 @@ void reject_binary(std::string_view text, const std::string& source) {
 }  // namespace
 
 Model read_obj(std::string_view text, const std::string& name,
-               const std::filesystem::path& mtl_folder) {
+               const std::filesystem::path& mtl_folder, TextureSet* textures) {
+  TextureSet own;
   reject_binary(text, name);
   // Editors may put a byte order mark in front.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   try {
-    ObjContent content(text, name, mtl_folder);
+    ObjContent content(text, name, mtl_folder, textures != nullptr ? *textures : own);
     in_load_part(0.0, 0.7, [&content] { content.parse(); });
     Model model = in_load_part(0.7, 1.0, [&content] { return content.build(); });
     model.name = name;
@@ -310,9 +314,9 @@ Model read_obj(std::string_view text, const std::string& name,
   }
 }
 
-Model read_obj(const std::filesystem::path& path) {
+Model read_obj(const std::filesystem::path& path, TextureSet* textures) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  Model model = read_obj(read_model_file(path), path.string(), folder);
+  Model model = read_obj(read_model_file(path), path.string(), folder, textures);
   model.name = path.stem().string();
   return model;
 }

@@ -74,21 +74,32 @@ std::uint32_t ObjMaterials::use(std::string_view name, const std::string& place)
     materials_.push_back(known->second);
     return number;
   }
-  Material grey;
+  MtlMaterial grey;
   grey.name = name;
   materials_.push_back(grey);
   if (!name.empty() && unknown_++ == 0) first_unknown_ = place + ": material \"" + printable(name);
   return number;
 }
 
-std::vector<Material> ObjMaterials::take() {
+std::vector<Material> ObjMaterials::take(bool with_textures) {
   if (unknown_ > 0) {
     const std::string others =
         unknown_ > 1 ? " (and " + counted(unknown_ - 1, "other") + ")" : std::string();
     warnings_.add(first_unknown_ + "\"" + others +
                   " is in no material file that was found; grey is used");
   }
-  return std::move(materials_);
+  std::vector<Material> taken;
+  for (MtlMaterial& material : materials_) {
+    if (with_textures && !material.texture.empty()) {
+      const std::filesystem::path folder = std::filesystem::path(material.file).parent_path();
+      material.diffuse_texture =
+          textures_.load(material.texture, folder.empty() ? std::filesystem::path(".") : folder,
+                         material.file, material.name, warnings_);
+    }
+    taken.push_back(std::move(material));
+  }
+  materials_.clear();
+  return taken;
 }
 
 }  // namespace encore::scene

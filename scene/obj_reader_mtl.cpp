@@ -2,27 +2,38 @@
 
 #include "scene/model_input.h"
 #include "scene/model_number.h"
+#include "scene/obj_reader_mtl_map.h"
 
 #include <glm/common.hpp>
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace encore::scene {
 
 namespace {
 
-constexpr std::string_view kStatements[] = {"Ka", "Kd", "Ks", "Ke", "Ns", "Ni", "d", "Tr", "illum"};
+constexpr std::string_view kStatements[] = {"Ka", "Kd", "Ks", "Ke", "Ns",
+                                            "Ni", "Tf", "d",  "Tr", "illum"};
 
 // The statements that are used, in the one spelling that the library takes. It would otherwise
-// parse textures and other options that nobody needs here, and overflows on long exponents: numbers
-// are read here and written plainly.
+// parse other maps that nobody needs here, and overflows on long exponents: numbers are read here
+// and written plainly.
 class MtlFilter {
  public:
   MtlFilter(const std::string& name, Warnings& warnings) : name_(name), warnings_(warnings) {}
+
+  /// The texture that the library knows by this name: the filter names them by their numbers.
+  [[nodiscard]] std::string texture(const std::string& number) const {
+    std::size_t at = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), at);
+    return error == std::errc{} && at < textures_.size() ? textures_[at] : std::string();
+  }
 
   std::string run(std::string_view text) {
     std::size_t line = 0;
@@ -37,6 +48,8 @@ class MtlFilter {
         new_material(statement);
       } else if (std::ranges::find(kStatements, keyword) != std::end(kStatements)) {
         numbers(keyword, statement, line);
+      } else if (keyword == "map_Kd") {
+        texture(statement, line);
       }
     }
     return std::move(out_);
@@ -48,6 +61,7 @@ class MtlFilter {
   void new_material(std::string_view name) {
     const std::size_t first = name.find_first_not_of(" \t");
     open_ = first != std::string_view::npos;
+    has_diffuse_ = false;
     if (!open_) return;
     name = name.substr(first, name.find_last_not_of(" \t") - first + 1);
     const Material defaults;
@@ -55,8 +69,21 @@ class MtlFilter {
     text << "newmtl " << name << "\nKa " << defaults.ambient.x << ' ' << defaults.ambient.y << ' '
          << defaults.ambient.z << "\nKd " << defaults.diffuse.x << ' ' << defaults.diffuse.y << ' '
          << defaults.diffuse.z << "\nNs " << defaults.shininess << "\nillum "
-         << defaults.illumination_model << '\n';
+         << defaults.illumination_model << "\nTf 1 1 1\n";
     out_ += text.str();
+  }
+
+  void texture(std::string_view arguments, std::size_t line) {
+    if (!open_) return;
+    const MtlMap map = parse_mtl_map(arguments);
+    if (map.file.empty()) return;
+    if (map.transformed && !std::exchange(told_, true)) {
+      warnings_.add(name_ + ":" + std::to_string(line) +
+                    ": offset, scale and turbulence of textures (-o, -s, -t) are left out");
+    }
+    if (!has_diffuse_) out_ += "Kd 0.6 0.6 0.6\n";
+    out_ += "map_Kd " + std::to_string(textures_.size()) + '\n';
+    textures_.emplace_back(map.file);
   }
 
   void numbers(std::string_view keyword, std::string_view arguments, std::size_t line) {
@@ -76,8 +103,9 @@ class MtlFilter {
       }
       return;
     }
+    if (keyword == "Kd") has_diffuse_ = true;
     // One number for a colour means grey.
-    if (keyword.starts_with('K')) values.resize(3, values.front());
+    if (keyword.starts_with('K') || keyword == "Tf") values.resize(3, values.front());
     out_ += keyword;
     std::ostringstream text;
     text.precision(9);
@@ -96,16 +124,23 @@ class MtlFilter {
   const std::string& name_;
   Warnings& warnings_;
   std::string out_;
+  std::vector<std::string> textures_;
   std::size_t bad_ = 0;
   bool open_ = false;
+  bool has_diffuse_ = false;
+  bool told_ = false;
 };
 
 glm::vec3 color(const tinyobj::real_t (&rgb)[3]) {
   return glm::vec3(std::max(rgb[0], 0.0F), std::max(rgb[1], 0.0F), std::max(rgb[2], 0.0F));
 }
 
-Material convert(const tinyobj::material_t& from) {
-  Material to;
+bool is_glass(int illumination) {
+  return illumination == 4 || illumination == 6 || illumination == 7 || illumination == 9;
+}
+
+MtlMaterial convert(const tinyobj::material_t& from) {
+  MtlMaterial to;
   to.name = from.name;
   to.diffuse = color(from.diffuse);
   to.specular = color(from.specular);
@@ -115,9 +150,11 @@ Material convert(const tinyobj::material_t& from) {
   to.opacity = std::clamp(from.dissolve, 0.0F, 1.0F);
   to.index_of_refraction = from.ior > 0.0F ? from.ior : 1.0F;
   to.illumination_model = from.illum;
-  if (from.illum >= 3 && from.illum <= 7) {
+  if (from.illum == 3 || from.illum == 5 || from.illum == 8) {
     to.reflectivity = std::min((to.specular.x + to.specular.y + to.specular.z) / 3.0F, 1.0F);
   }
+  const glm::vec3 filter = color(from.transmittance);
+  if (is_glass(from.illum) && to.opacity == 1.0F && filter != glm::vec3(0.0F)) to.opacity = 0.0F;
   return to;
 }
 
@@ -125,7 +162,8 @@ Material convert(const tinyobj::material_t& from) {
 
 void read_mtl(std::string_view text, const std::string& name, MaterialsByName& materials,
               Warnings& warnings) {
-  std::istringstream clean(MtlFilter(name, warnings).run(text));
+  MtlFilter filter(name, warnings);
+  std::istringstream clean(filter.run(text));
   clean.imbue(std::locale::classic());
   std::map<std::string, int> indices;
   std::vector<tinyobj::material_t> read;
@@ -138,7 +176,12 @@ void read_mtl(std::string_view text, const std::string& name, MaterialsByName& m
     // The library ends its list with a nameless material if the file holds none.
     if (material.name.empty()) continue;
     any = true;
-    materials.try_emplace(material.name, convert(material));
+    MtlMaterial converted = convert(material);
+    converted.file = name;
+    if (!material.diffuse_texname.empty()) {
+      converted.texture = filter.texture(material.diffuse_texname);
+    }
+    materials.try_emplace(material.name, std::move(converted));
   }
   if (!any) warnings.add(name + ": holds no materials");
 }

@@ -103,6 +103,9 @@ const std::vector<Entry>& entries() {
       {{"wave", "", 20'000, "deforming", "a checkered cloth under a travelling wave"},
        samples::wave},
       {{"metaballs", "", 8'648, "changing count", "drops that merge and part"}, samples::metaballs},
+      {{"mirrors", "", 8'980, "static",
+        "mirrors, a glass ball and textures, for rays of every kind"},
+       samples::mirrors},
   };
   return list;
 }

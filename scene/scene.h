@@ -32,7 +32,8 @@ struct Instance {
 /// A setting that the scene file states for this scene; the program checks name and value where
 /// they are used, and `place` (file:line:column) leads the message if they are wrong.
 struct Preference {
-  std::string key;  ///< dotted: "structure", "policy", "device", "threads", "grid.cells_per_axis" …
+  std::string
+      key;  ///< dotted: "structure", "policy", "device", "threads", "rays", "grid.cells_per_axis" …
   std::string value;
   std::string place;
 };

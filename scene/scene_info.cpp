@@ -174,6 +174,14 @@ SceneInfo describe(const Scene& scene, const TriangleList& list) {
   info.dropped_non_finite = list.dropped_non_finite;
   info.has_normals = !list.normals.empty();
   info.has_colors = !list.colors.empty();
+  info.has_texcoords = !list.texcoords.empty();
+  std::set<const Texture*> textures;
+  for (const Material& material : scene.materials) {
+    const Texture* texture = material.diffuse_texture.get();
+    if (texture == nullptr || !textures.insert(texture).second) continue;
+    info.texture_bytes += texture->bytes();
+  }
+  info.textures = textures.size();
   for (const WrittenInstance& shown : list.bookkeeping.instances) {
     if (shown.model) info.vertices += shown.model->mesh.positions.size();
   }
@@ -183,10 +191,10 @@ SceneInfo describe(const Scene& scene, const TriangleList& list) {
   describe_sizes(list, info);
   describe_density(list, info);
   describe_motion(scene, info);
-  info.triangle_list_bytes = bytes_of(list.triangles) + bytes_of(list.normals) +
-                             bytes_of(list.colors) + bytes_of(list.bookkeeping.positions) +
-                             bytes_of(list.bookkeeping.vertex_normals) +
-                             bytes_of(list.bookkeeping.instances);
+  info.triangle_list_bytes =
+      bytes_of(list.triangles) + bytes_of(list.normals) + bytes_of(list.colors) +
+      bytes_of(list.texcoords) + bytes_of(list.bookkeeping.positions) +
+      bytes_of(list.bookkeeping.vertex_normals) + bytes_of(list.bookkeeping.instances);
   info.warnings = scene.warnings.messages;
   return info;
 }

@@ -46,6 +46,9 @@ struct SceneInfo {
   std::uint64_t dropped_non_finite = 0;
   bool has_normals = false;
   bool has_colors = false;
+  bool has_texcoords = false;       ///< in the list: some surface with coordinates wears a texture
+  std::uint64_t textures = 0;       ///< different ones
+  std::uint64_t texture_bytes = 0;  ///< of their texels
 
   Bounds bounds;
   double diagonal = 0.0;
@@ -65,7 +68,8 @@ struct SceneInfo {
 
   AnimationInfo animation;
   std::uint64_t mesh_bytes = 0;           ///< all models
-  std::uint64_t triangle_list_bytes = 0;  ///< the list, with normals, colours and scratch
+  std::uint64_t triangle_list_bytes = 0;  ///< the list, with normals, colours, texture coordinates
+                                          ///< and scratch
   std::vector<std::string> warnings;
 };
 

@@ -2,6 +2,7 @@
 #include "scene/load_watch.h"
 #include "scene/scene_file.h"
 #include "scene/scene_toml_camera.h"
+#include "scene/scene_toml_material.h"
 #include "scene/scene_toml_model.h"
 #include "scene/toml_reading.h"
 
@@ -39,10 +40,10 @@ void read_preferences(const toml::table& table, const std::string& prefix, const
   }
 }
 
-NamedMaterials read_materials(TomlTable& root, Warnings& warnings) {
+NamedMaterials read_materials(TomlTable& root, Assets& assets, Warnings& warnings) {
   NamedMaterials materials;
   for (TomlTable& table : root.tables("material")) {
-    Material material = read_material(table, Material{}, warnings);
+    Material material = read_material(table, assets, warnings);
     if (material.name.empty()) table.fail("name", "a material needs a 'name'");
     const std::string name = material.name;
     if (!materials.emplace(name, std::move(material)).second) {
@@ -86,7 +87,7 @@ Scene parse_scene_toml(std::string_view text, const std::string& file_name,
   }
 
   // Models last: what is wrong with the rest of the file is found before anything large is read.
-  const NamedMaterials materials = read_materials(root, scene.warnings);
+  const NamedMaterials materials = read_materials(root, assets, scene.warnings);
   std::vector<TomlTable> models = root.tables("model");
   const auto count = static_cast<double>(models.size());
   for (std::size_t i = 0; i < models.size(); ++i) {

@@ -100,11 +100,11 @@ FrameSequence read_frames(TomlTable& table, Assets& assets, Warnings& warnings) 
 
 /// The material of a model table: one of the file's by name, or written in place.
 std::optional<Material> read_override(TomlTable& table, const NamedMaterials& materials,
-                                      Warnings& warnings) {
+                                      Assets& assets, Warnings& warnings) {
   if (!table.has("material")) return std::nullopt;
   if (!table.is_text("material")) {
     auto inner = table.table("material");
-    return read_material(*inner, Material{}, warnings);
+    return read_material(*inner, assets, warnings);
   }
   const std::string name = *table.text("material");
   const auto found = materials.find(name);
@@ -191,21 +191,6 @@ void add_frames(TomlTable frames, Placing& placing, Assets& assets, Scene& scene
 
 }  // namespace
 
-Material read_material(TomlTable& table, Material m, Warnings& warnings) {
-  m.name = table.text("name").value_or(m.name);
-  m.diffuse = table.number_or_vector("diffuse", kShare).value_or(m.diffuse);
-  m.specular = table.number_or_vector("specular", kShare).value_or(m.specular);
-  m.ambient = table.number_or_vector("ambient", kShare).value_or(m.ambient);
-  m.emission = table.number_or_vector("emission", kNotNegative).value_or(m.emission);
-  m.shininess = table.number("shininess", kNotNegative).value_or(m.shininess);
-  m.opacity = table.number("opacity", kShare).value_or(m.opacity);
-  m.index_of_refraction =
-      table.number("index_of_refraction", kPositive).value_or(m.index_of_refraction);
-  m.reflectivity = table.number("reflectivity", kShare).value_or(m.reflectivity);
-  table.warn_about_unknown_keys(warnings);
-  return m;
-}
-
 void read_model_table(TomlTable& table, const NamedMaterials& materials, Assets& assets,
                       Scene& scene) {
   const bool file = table.has("file");
@@ -220,7 +205,7 @@ void read_model_table(TomlTable& table, const NamedMaterials& materials, Assets&
   placing.name = table.text("name").value_or("");
   placing.fit = table.number("fit", kPositive);
   placing.transform = read_transform(table, scene.warnings).matrix();
-  placing.material = read_override(table, materials, scene.warnings);
+  placing.material = read_override(table, materials, assets, scene.warnings);
 
   // At most one motion.
   auto keys = table.tables("key");

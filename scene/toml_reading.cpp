@@ -192,17 +192,37 @@ std::optional<float> TomlTable::number(std::string_view key, const NumberRange& 
   return checked(*node, key, range);
 }
 
-std::optional<glm::vec3> TomlTable::vector(std::string_view key, const NumberRange& range) {
-  const toml::node* node = find(key);
-  if (node == nullptr) return std::nullopt;
-  const toml::array* array = node->as_array();
-  if (array == nullptr) wrong_type(*node, key, "an array of 3 numbers");
+glm::vec3 TomlTable::checked_vector(const toml::node& node, std::string_view key,
+                                    const NumberRange& range) const {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) wrong_type(node, key, "an array of 3 numbers");
   if (array->size() != 3) {
-    fail(key, fmt::format("'{}' must be an array of 3 numbers, not of {}", key, array->size()));
+    throw InputError(fmt::format("{}: '{}' must be an array of 3 numbers, not of {}",
+                                 place_of(node), key, array->size()));
   }
   glm::vec3 v(0.0F);
   for (int i = 0; i < 3; ++i) v[i] = checked((*array)[static_cast<std::size_t>(i)], key, range);
   return v;
+}
+
+std::optional<glm::vec3> TomlTable::vector(std::string_view key, const NumberRange& range) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  return checked_vector(*node, key, range);
+}
+
+std::optional<std::vector<glm::vec3>> TomlTable::numbers_or_vectors(std::string_view key,
+                                                                    const NumberRange& range) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) wrong_type(*node, key, "an array of numbers or of arrays of 3 numbers");
+  std::vector<glm::vec3> values;
+  for (const toml::node& element : *array) {
+    values.push_back(element.is_number() ? glm::vec3(checked(element, key, range))
+                                         : checked_vector(element, key, range));
+  }
+  return values;
 }
 
 std::optional<glm::vec3> TomlTable::number_or_vector(std::string_view key,

@@ -44,6 +44,9 @@ class TomlTable {
   /// Three numbers, or one that stands for all three.
   std::optional<glm::vec3> number_or_vector(std::string_view key,
                                             const NumberRange& range = kAnyNumber);
+  /// An array of elements, each three numbers or one that stands for all three.
+  std::optional<std::vector<glm::vec3>> numbers_or_vectors(std::string_view key,
+                                                           const NumberRange& range = kAnyNumber);
   /// An array of strings.
   std::optional<std::vector<std::string>> texts(std::string_view key);
   std::optional<TomlTable> table(std::string_view key);
@@ -68,6 +71,8 @@ class TomlTable {
   const toml::node* find(std::string_view key);
   [[nodiscard]] std::string inner_path(std::string_view key) const;
   float checked(const toml::node& node, std::string_view key, const NumberRange& range) const;
+  glm::vec3 checked_vector(const toml::node& node, std::string_view key,
+                           const NumberRange& range) const;
   [[noreturn]] void wrong_type(const toml::node& node, std::string_view key,
                                std::string_view wanted) const;
 

@@ -41,6 +41,21 @@ void for_each_mesh(const Instance& instance, Visit&& visit) {
   if (instance.model) visit(instance.model->mesh);
 }
 
+/// Whether one of the materials that an instance may show has a texture.
+bool wears_texture(const Scene& scene, const Instance& instance) {
+  std::size_t count = 0;
+  if (instance.model) count = instance.model->materials.size();
+  if (const auto* sequence = std::get_if<FrameSequence>(&instance.motion)) {
+    for (const auto& frame : sequence->frames) count = std::max(count, frame->materials.size());
+  }
+  const std::size_t first = std::min<std::size_t>(instance.first_material, scene.materials.size());
+  const std::size_t last =
+      std::min(first + std::max<std::size_t>(count, 1), scene.materials.size());
+  return std::any_of(scene.materials.begin() + static_cast<std::ptrdiff_t>(first),
+                     scene.materials.begin() + static_cast<std::ptrdiff_t>(last),
+                     [](const Material& m) { return m.diffuse_texture != nullptr; });
+}
+
 bool same_connectivity(const WrittenInstance& a, const WrittenInstance& b) {
   if (a.first != b.first || a.count != b.count || a.left_out != b.left_out ||
       a.left_out_pattern != b.left_out_pattern) {
@@ -85,6 +100,7 @@ class Update {
   bool topology_ = false;
   bool with_normals_ = false;
   bool with_colors_ = false;
+  bool with_texcoords_ = false;
   std::size_t end_ = 0;  ///< triangles written so far
 };
 
@@ -92,6 +108,7 @@ void Update::resize_arrays(std::size_t count) {
   list_.triangles.resize(count);
   if (with_normals_) list_.normals.resize(count);
   if (with_colors_) list_.colors.resize(count);
+  if (with_texcoords_) list_.texcoords.resize(count);
 }
 
 /// After an edit: which attributes the scene has, and room for the largest frame of each instance,
@@ -101,11 +118,13 @@ void Update::prepare() {
   std::size_t vertices = 0;
   for (const Instance& instance : scene_.instances) {
     std::size_t most = 0;
+    const bool textured = wears_texture(scene_, instance);
     for_each_mesh(instance, [&](const Mesh& mesh) {
       most = std::max(most, mesh.triangles.size());
       vertices = std::max(vertices, mesh.positions.size());
       with_normals_ = with_normals_ || !mesh.normals.empty();
       with_colors_ = with_colors_ || !mesh.colors.empty();
+      with_texcoords_ = with_texcoords_ || (textured && !mesh.texcoords.empty());
     });
     triangles += most;
   }
@@ -113,14 +132,18 @@ void Update::prepare() {
   topology_ = list_.bookkeeping.scene_version == 0 ||
               list_.bookkeeping.instances.size() != scene_.instances.size();
   auto& book = list_.bookkeeping;
-  changed_ = with_normals_ != book.has_normals || with_colors_ != book.has_colors;
+  changed_ = with_normals_ != book.has_normals || with_colors_ != book.has_colors ||
+             with_texcoords_ != book.has_texcoords;
   book.has_normals = with_normals_;
   book.has_colors = with_colors_;
+  book.has_texcoords = with_texcoords_;
   if (!with_normals_) release(list_.normals);
   if (!with_colors_) release(list_.colors);
+  if (!with_texcoords_) release(list_.texcoords);
   list_.triangles.reserve(triangles);
   if (with_normals_) list_.normals.reserve(triangles);
   if (with_colors_) list_.colors.reserve(triangles);
+  if (with_texcoords_) list_.texcoords.reserve(triangles);
   resize_arrays(list_.triangles.size());
   book.positions.reserve(vertices);
   if (with_normals_) book.vertex_normals.reserve(vertices);
@@ -169,6 +192,12 @@ void Update::write_attributes(const Mesh& mesh, std::size_t place, const glm::uv
     const auto value = colors.empty() ? std::array<glm::vec3, 3>{one, one, one} : three(colors);
     changed_ |= store(list_.colors[place], value);
   }
+  if (with_texcoords_) {
+    const auto& all = mesh.texcoords;
+    std::array<glm::vec2, 3> value{};
+    if (!all.empty()) value = {all[corners.x], all[corners.y], all[corners.z]};
+    changed_ |= store(list_.texcoords[place], value);
+  }
 }
 
 /// Writes an instance's triangles from `end_` on, leaving out those that are not finite.
@@ -216,6 +245,7 @@ TriangleChange Update::run(double time_s) {
   } else {
     with_normals_ = book.has_normals;
     with_colors_ = book.has_colors;
+    with_texcoords_ = book.has_texcoords;
   }
 
   // Write what looks different or has to lie elsewhere than last time.

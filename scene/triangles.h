@@ -5,6 +5,7 @@
 #include "scene/triangle.h"
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -39,6 +40,9 @@ struct TriangleList {
   /// Vertex colours, three a triangle; empty if no instance has any. They multiply the diffuse
   /// colour; triangles of instances without colours hold ones.
   std::vector<std::array<glm::vec3, 3>> colors;
+  /// Texture coordinates, three a triangle; empty unless some instance has a material with a
+  /// texture and a mesh with coordinates. Triangles of instances without any hold zeros.
+  std::vector<std::array<glm::vec2, 3>> texcoords;
   /// Triangles left out because a coordinate was NaN or infinite at this time.
   std::uint64_t dropped_non_finite = 0;
   /// Grows when any vertex changed.
@@ -51,6 +55,7 @@ struct TriangleList {
     std::uint64_t scene_version = 0;
     bool has_normals = false;  ///< some mesh of the scene has normals, colours
     bool has_colors = false;
+    bool has_texcoords = false;  ///< and some instance with coordinates wears a texture
     std::vector<WrittenInstance> instances;
     std::vector<glm::vec3> positions;  ///< scratch: one mesh's vertices in world space
     std::vector<glm::vec3> vertex_normals;
@@ -66,9 +71,9 @@ struct TriangleRange {
   std::size_t count = 0;
 };
 
-/// Those triangles (with their normals and colours) that may have changed since the list had this
-/// version, in ascending order, neighbours joined. Of use only while `topology_version` is the
-/// same; otherwise everything may have changed.
+/// Those triangles (with their normals, colours and texture coordinates) that may have changed
+/// since the list had this version, in ascending order, neighbours joined. Of use only while
+/// `topology_version` is the same; otherwise everything may have changed.
 std::vector<TriangleRange> changed_since(const TriangleList& list, std::uint64_t version);
 
 enum class TriangleChange { none, moved, topology };

@@ -2,7 +2,7 @@
 
 #include "scene/scene.h"
 
-/// The sample scenes that need more than one model, or move.
+/// The sample scenes that need more than one model, or move, or more than plain materials.
 namespace encore::scene::samples {
 
 /// An open box of toys, several of them moving rigidly in one loop of eight seconds; 11,141.
@@ -22,5 +22,8 @@ Scene wave();
 
 /// Drops that merge and part; the number of triangles changes from frame to frame.
 Scene metaballs();
+
+/// Mirrors, a glass ball and textures over a checkered floor; prefers all kinds of rays.
+Scene mirrors();
 
 }  // namespace encore::scene::samples

@@ -3,6 +3,8 @@
 #include "scene/sample_scenes.h"
 
 #include "scene/bounds.h"
+#include "scene/needs.h"
+#include "scene/ray_settings.h"
 #include "scene/triangle.h"
 
 #include <gtest/gtest.h>
@@ -63,6 +65,7 @@ class Fingerprint {
     add(mesh.triangles.data(), mesh.triangles.size());
     add(mesh.normals.data(), mesh.normals.size());
     add(mesh.colors.data(), mesh.colors.size());
+    add(mesh.texcoords.data(), mesh.texcoords.size());
     add(mesh.material_of.data(), mesh.material_of.size());
   }
   [[nodiscard]] std::uint64_t value() const { return value_; }
@@ -85,6 +88,10 @@ std::uint64_t fingerprint(const Scene& scene) {
     }
   }
   for (const Model* model : models_of(scene)) print.add(model->mesh);
+  for (const Material& material : scene.materials) {
+    const Texture* texture = material.diffuse_texture.get();
+    if (texture != nullptr) print.add(texture->texels.data(), texture->texels.size());
+  }
   return print.value();
 }
 
@@ -171,7 +178,8 @@ TEST(SampleScenes, AreTheSameBitForBitEverywhere) {
       {"bunny", 0x3CE6B6D8EDE8D47DULL},       {"still-life", 0x5C8C471272A3F418ULL},
       {"dragon-fine", 0x7C64325660E9F61EULL}, {"hall", 0xFF4DC7A07F38512FULL},
       {"forest", 0xF48D03D109FC202DULL},      {"buddha", 0xD041B1A4BFC7EEEAULL},
-      {"wave", 0x5116B10BB3D13300ULL},        {"metaballs", 0xFD598AA49FC6CE66ULL}};
+      {"wave", 0x5116B10BB3D13300ULL},        {"metaballs", 0xFD598AA49FC6CE66ULL},
+      {"mirrors", 0xA3788FF50DCA5411ULL}};
   for (const SampleScene& about : sample_scenes()) {
     ASSERT_TRUE(recorded.contains(about.name)) << about.name;
     EXPECT_EQ(fingerprint(scene_named(about.name)), recorded.at(about.name))
@@ -321,6 +329,40 @@ TEST(SampleScenes, MetaballsChangeTheirCountFromFrameToFrame) {
     EXPECT_NEAR(volume_times_six(next) / volume, 1.0, 0.15) << "frame " << i;
   }
   EXPECT_GT(changes, frames * 3 / 4);
+}
+
+TEST(SampleScenes, OnlyMirrorsHasUseForEveryKindOfRay) {
+  for (const SampleScene& about : sample_scenes()) {
+    const Scene& scene = scene_named(about.name);
+    RaySettings rays;
+    for (const Preference& one : scene.preferences) {
+      EXPECT_EQ(apply_ray_setting(rays, one.key, one.value), "") << about.name;
+    }
+    TriangleList list;
+    if (about.triangles < 20'001) update_triangles(scene, 0.0, list);
+    const Needs needs = needs_of(scene, list, rays);
+    const bool all = needs.shadows && needs.reflections && needs.refractions && needs.textures;
+    EXPECT_EQ(all, about.name == "mirrors") << about.name;
+    EXPECT_EQ(needs.paths(), about.name == "mirrors") << about.name;
+    EXPECT_EQ(list.texcoords.empty(), about.name != "mirrors") << about.name;
+  }
+}
+
+TEST(SampleScenes, TheGlassBallIsClosedAndFacesOutwards) {
+  for (const Instance& instance : scene_named("mirrors").instances) {
+    if (instance.name != "glass ball") continue;
+    const Mesh& mesh = instance.model->mesh;
+    std::size_t wrong = 0;
+    for (const auto& [edge, use] : edge_uses(mesh)) wrong += use.along != 1 || use.against != 1;
+    EXPECT_EQ(wrong, 0U);
+    EXPECT_GT(volume_times_six(mesh), 0.0);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const glm::vec3& p = mesh.positions[i];
+      EXPECT_GT(p.x * mesh.normals[i].x + p.y * mesh.normals[i].y + p.z * mesh.normals[i].z, 2.09F);
+    }
+    return;
+  }
+  FAIL() << "there is no glass ball";
 }
 
 TEST(SampleScenes, EveryAnimationWordDescribesTheMotionsPresent) {

@@ -23,7 +23,7 @@ TEST(SceneInfo, CountsABox) {
   const Scene scene = parse("[[model]]\ngenerator = \"box\"\nscale = 2\n");
   const SceneInfo info = info_of(scene);
   EXPECT_EQ(info.triangles, 12U);
-  EXPECT_EQ(info.vertices, 8U);
+  EXPECT_EQ(info.vertices, 24U);  // four a face, for its texture
   EXPECT_EQ(info.models, 1U);
   EXPECT_EQ(info.instances, 1U);
   EXPECT_EQ(info.lights, 1U);
