@@ -5,7 +5,9 @@
 #include "accel/gpu_buffers.h"
 #include "accel/inspect/ray_path.h"
 #include "accel/inspect/ray_recording.h"
+#include "accel/settings.h"
 #include "accel/stats.h"
+#include "accel/triangle_tester.h"
 #include "scene/bounds.h"
 #include "scene/ray.h"
 #include "scene/triangle.h"
@@ -47,6 +49,9 @@ struct NodeView {
 /// The hit contract, the same for every structure: of all triangles that decide_hit()
 /// (triangle_hit.h) accepts, the one with the smallest t, at equal t the lowest index. No structure
 /// may lose or add a hit; traversal is conservative by rounding bounds, never by fixed epsilons.
+/// IntersectionMode::watertight finds the very same triangles, with t, u and v of single precision
+/// (triangle_watertight.h), bit for bit the same in every structure; moller_trumbore promises
+/// neither (triangle_moller_trumbore.h).
 class AccelerationStructure {
  public:
   virtual ~AccelerationStructure() = default;
@@ -76,6 +81,11 @@ class AccelerationStructure {
   /// them. Updates that are no builds are short, and a half-updated structure would be wrong: they
   /// are not watched.
   void set_build_watch(BuildWatch* watch) { watch_ = watch; }
+
+  /// By which arithmetic rays are held against triangles from now on. Takes effect at once: nothing
+  /// that was built depends on it.
+  void set_intersection(IntersectionMode mode) { intersection_ = mode; }
+  [[nodiscard]] IntersectionMode intersection() const { return intersection_; }
 
   /// Finds the nearest hit of each ray; hits.size() == rays.size().
   virtual void intersect(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
@@ -113,44 +123,52 @@ class AccelerationStructure {
 
  private:
   BuildWatch* watch_ = nullptr;
+  IntersectionMode intersection_ = IntersectionMode::precise;
   std::uint64_t version_ = 0;
 };
 
-/// Implements the three batch calls and trace_path() over `Derived::trace<AnyHit>(ray, hit,
+/// Implements the three batch calls and trace_path() over `Derived::trace<AnyHit, Tester>(ray, hit,
 /// counter_policy)`, so that the inner loop is compiled once for each use and no ray pays a virtual
-/// call. `trace` starts from a hit that is a miss with t = ray.t_max and may return early with any
-/// hit if AnyHit.
+/// call. The tester of the intersection mode (triangle_tester.h) is picked once a batch. `trace`
+/// starts from a hit that is a miss with t = ray.t_max and may return early with any hit if AnyHit.
 template <class Derived>
 class TracedStructure : public AccelerationStructure {
  public:
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const final {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      hits[i] = Hit{.t = rays[i].t_max};
-      NotCounting none;
-      self().template trace<false>(rays[i], hits[i], none);
-    }
+    with_tester(intersection(), [&]<class Tester>() {
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits[i] = Hit{.t = rays[i].t_max};
+        NotCounting none;
+        self().template trace<false, Tester>(rays[i], hits[i], none);
+      }
+    });
   }
   void intersect_counted(std::span<const Ray> rays, std::span<Hit> hits,
                          std::span<TraceCounters> counters) const final {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      hits[i] = Hit{.t = rays[i].t_max};
-      counters[i] = {};
-      Counting counting{counters[i]};
-      self().template trace<false>(rays[i], hits[i], counting);
-    }
+    with_tester(intersection(), [&]<class Tester>() {
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits[i] = Hit{.t = rays[i].t_max};
+        counters[i] = {};
+        Counting counting{counters[i]};
+        self().template trace<false, Tester>(rays[i], hits[i], counting);
+      }
+    });
   }
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const final {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      Hit hit{.t = rays[i].t_max};
-      NotCounting none;
-      self().template trace<true>(rays[i], hit, none);
-      blocked[i] = hit.found() ? 1 : 0;
-    }
+    with_tester(intersection(), [&]<class Tester>() {
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        Hit hit{.t = rays[i].t_max};
+        NotCounting none;
+        self().template trace<true, Tester>(rays[i], hit, none);
+        blocked[i] = hit.found() ? 1 : 0;
+      }
+    });
   }
   void trace_path(const Ray& ray, Hit& hit, RayPath& path) const final {
     hit = Hit{.t = ray.t_max};
-    Recording recording(ray, path);
-    self().template trace<false>(ray, hit, recording);
+    Recording recording(ray, intersection(), path);
+    with_tester(intersection(),
+                [&]<class Tester>() { self().template trace<false, Tester>(ray, hit, recording); });
     recording.end(hit);
   }
 

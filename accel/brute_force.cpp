@@ -1,6 +1,6 @@
 #include "accel/brute_force.h"
 
-#include "accel/triangle_filter.h"
+#include "accel/triangle_tester.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 
 namespace encore::accel {
 
-template <bool AnyHit, class Counter>
+template <bool AnyHit, class Tester, class Counter>
 void BruteForce::trace(const Ray& ray, Hit& hit, Counter& counter) const {
-  const TriangleFilter filter(ray);
+  const Tester tester(ray);
   counter.node(0, ray.t_min, ray.t_max);
   constexpr std::uint32_t kBatch = 64;
   std::array<std::uint32_t, kBatch> references;
@@ -20,7 +20,7 @@ void BruteForce::trace(const Ray& ray, Hit& hit, Counter& counter) const {
     const std::uint32_t n = std::min(kBatch, count - first);
     std::iota(references.begin(), references.begin() + n, first);
     counter.triangles(triangles_.data(), references.data(), n, hit);
-    if (filter.test(triangles_.data(), references.data(), n, hit) && AnyHit) return;
+    if (tester.test(triangles_.data(), references.data(), n, hit) && AnyHit) return;
   }
 }
 
@@ -41,9 +41,6 @@ void BruteForce::visit(const std::function<bool(const NodeView&)>& visitor) cons
   visitor(NodeView{.bounds = bounds, .depth = 0, .leaf = true, .triangles = all});
 }
 
-template void BruteForce::trace<false, NotCounting>(const Ray&, Hit&, NotCounting&) const;
-template void BruteForce::trace<false, Counting>(const Ray&, Hit&, Counting&) const;
-template void BruteForce::trace<false, Recording>(const Ray&, Hit&, Recording&) const;
-template void BruteForce::trace<true, NotCounting>(const Ray&, Hit&, NotCounting&) const;
+ENCORE_COMPILE_TRACE(BruteForce)
 
 }  // namespace encore::accel

@@ -22,7 +22,7 @@ class BruteForce final : public TracedStructure<BruteForce> {
   [[nodiscard]] GpuBuffers gpu_buffers() const override { return {}; }
   void visit(const std::function<bool(const NodeView&)>& visitor) const override;
 
-  template <bool AnyHit, class Counter>
+  template <bool AnyHit, class Tester, class Counter>
   void trace(const Ray& ray, Hit& hit, Counter& counter) const;
 
  private:

@@ -9,7 +9,9 @@
 
 namespace encore::accel {
 
-std::unique_ptr<AccelerationStructure> make_structure(const StructureSpec& spec) {
+namespace {
+
+std::unique_ptr<AccelerationStructure> make_kind(const StructureSpec& spec) {
   const auto settings = [&]<class T>(std::type_identity<T>) {
     const T* given = std::get_if<T>(&spec.settings);
     return given ? *given : T{};
@@ -30,6 +32,14 @@ std::unique_ptr<AccelerationStructure> make_structure(const StructureSpec& spec)
                                    spec.memory);
   }
   return nullptr;
+}
+
+}  // namespace
+
+std::unique_ptr<AccelerationStructure> make_structure(const StructureSpec& spec) {
+  auto structure = make_kind(spec);
+  if (structure) structure->set_intersection(spec.intersection);
+  return structure;
 }
 
 }  // namespace encore::accel

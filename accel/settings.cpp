@@ -29,6 +29,12 @@ constexpr Names<UpdateCase, 4> kUpdateCases{{{UpdateCase::real, "real"},
                                              {UpdateCase::best, "best"},
                                              {UpdateCase::average, "average"},
                                              {UpdateCase::worst, "worst"}}};
+constexpr Names<AutoRule, 2> kAutoRules{{{AutoRule::cost, "cost"}, {AutoRule::quality, "quality"}}};
+
+constexpr Names<IntersectionMode, 3> kIntersectionModes{
+    {{IntersectionMode::precise, "precise"},
+     {IntersectionMode::moller_trumbore, "moller-trumbore"},
+     {IntersectionMode::watertight, "watertight"}}};
 
 template <class Enum, std::size_t N>
 std::string_view name_of(const Names<Enum, N>& names, Enum value) {
@@ -71,6 +77,7 @@ std::string assign(Number& target, std::string_view key, std::string_view text, 
 std::string apply_grid(GridSettings& grid, std::string_view key, std::string_view value) {
   if (key == "grid.cells_per_axis") return assign(grid.cells_per_axis, key, value, 0, 1024);
   if (key == "grid.density") return assign(grid.density, key, value, 0.01F, 16.0F);
+  if (key == "grid.most_references") return assign(grid.most_references, key, value, 1, 1024);
   return fmt::format("unknown setting '{}'", key);
 }
 
@@ -83,6 +90,7 @@ std::string apply_kd(KdTreeSettings& kd, std::string_view key, std::string_view 
   if (key == "kd.traversal_cost") return assign(kd.traversal_cost, key, value, 0.001F, 1e6F);
   if (key == "kd.intersection_cost") return assign(kd.intersection_cost, key, value, 0.001F, 1e6F);
   if (key == "kd.empty_bonus") return assign(kd.empty_bonus, key, value, 0.0F, 0.99F);
+  if (key == "kd.most_references") return assign(kd.most_references, key, value, 2, 1024);
   if (key == "kd.depth_logarithm") {
     if (value == "natural") {
       kd.depth_logarithm = KdTreeSettings::DepthLogarithm::natural;
@@ -106,6 +114,14 @@ std::string apply_bvh(BvhSettings& bvh, std::string_view key, std::string_view v
     bvh.update_case = *update_case;
     return {};
   }
+  if (key == "bvh.auto") {
+    const auto rule = parse_auto_rule(value);
+    if (!rule) {
+      return fmt::format("'{}' is not a value for {}; it takes cost or quality", value, key);
+    }
+    bvh.auto_rule = *rule;
+    return {};
+  }
   if (key == "bvh.seed") {
     return assign<std::uint64_t>(bvh.seed, key, value, 0, ~std::uint64_t{0});
   }
@@ -127,6 +143,12 @@ std::string_view to_string(MemoryMode mode) {
 std::string_view to_string(UpdateCase update_case) {
   return name_of(kUpdateCases, update_case);
 }
+std::string_view to_string(AutoRule rule) {
+  return name_of(kAutoRules, rule);
+}
+std::string_view to_string(IntersectionMode mode) {
+  return name_of(kIntersectionModes, mode);
+}
 
 std::optional<StructureKind> parse_structure_kind(std::string_view name) {
   return value_of(kStructures, name);
@@ -137,8 +159,23 @@ std::optional<Policy> parse_policy(std::string_view name) {
 std::optional<MemoryMode> parse_memory_mode(std::string_view name) {
   return value_of(kMemoryModes, name);
 }
+std::optional<IntersectionMode> parse_intersection_mode(std::string_view name) {
+  return value_of(kIntersectionModes, name);
+}
+const std::vector<IntersectionMode>& all_intersection_modes() {
+  static const std::vector<IntersectionMode> kAll = {
+      IntersectionMode::precise, IntersectionMode::moller_trumbore, IntersectionMode::watertight};
+  return kAll;
+}
 std::optional<UpdateCase> parse_update_case(std::string_view name) {
   return value_of(kUpdateCases, name);
+}
+std::optional<AutoRule> parse_auto_rule(std::string_view name) {
+  return value_of(kAutoRules, name);
+}
+AutoRule auto_rule(const StructureSettings& settings) {
+  const auto* bvh = std::get_if<BvhSettings>(&settings);
+  return bvh != nullptr ? bvh->auto_rule : AutoRule::cost;
 }
 
 const std::vector<StructureKind>& all_structure_kinds() {
@@ -160,20 +197,13 @@ const std::vector<Policy>& all_policies() {
 }
 
 const std::vector<std::string_view>& setting_keys() {
-  static const std::vector<std::string_view> keys{"grid.cells_per_axis",
-                                                  "grid.density",
-                                                  "kd.depth_offset",
-                                                  "kd.depth_factor",
-                                                  "kd.depth_logarithm",
-                                                  "kd.leaf_triangles",
-                                                  "kd.bad_split_retries",
-                                                  "kd.bad_split_margin",
-                                                  "kd.traversal_cost",
-                                                  "kd.intersection_cost",
-                                                  "kd.empty_bonus",
-                                                  "bvh.update_case",
-                                                  "bvh.seed",
-                                                  "bvh.rebuild_at"};
+  static const std::vector<std::string_view> keys{
+      "grid.cells_per_axis", "grid.density",         "grid.most_references",
+      "kd.depth_offset",     "kd.depth_factor",      "kd.depth_logarithm",
+      "kd.leaf_triangles",   "kd.bad_split_retries", "kd.bad_split_margin",
+      "kd.traversal_cost",   "kd.intersection_cost", "kd.empty_bonus",
+      "kd.most_references",  "bvh.update_case",      "bvh.seed",
+      "bvh.rebuild_at"};
   return keys;
 }
 

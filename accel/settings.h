@@ -21,6 +21,30 @@ enum class Policy {
   automatic,
 };
 
+/// What Policy::automatic goes by (auto_policy.h).
+enum class AutoRule {
+  /// Rebuild when it pays back, by what building, updating and tracing were measured to cost. Other
+  /// machines, and other runs, rebuild at other frames. The default.
+  cost,
+  /// Rebuild when the SAH cost has grown to BvhSettings::rebuild_at: the same frames on every
+  /// machine and run.
+  quality,
+};
+
+/// By which arithmetic a ray is held against a triangle (triangle_tester.h). All three are the same
+/// in every structure and on every device.
+enum class IntersectionMode {
+  /// In double precision wherever single precision leaves a doubt; the definition of a hit that the
+  /// others are measured by. The default.
+  precise,
+  /// Möller and Trumbore (1997) in single precision: what most tracers of their day used. Loses
+  /// hits on edges, and more of them the farther away or the thinner the triangle.
+  moller_trumbore,
+  /// Woop, Benthin and Wald (2013) in single precision: no ray slips between two triangles that
+  /// share an edge.
+  watertight,
+};
+
 /// Where a build's memory comes from.
 enum class MemoryMode {
   fresh,  ///< "malloc": every build allocates afresh and frees what the last one held
@@ -41,6 +65,10 @@ struct GridSettings {
   int cells_per_axis = 0;
   /// Factor on the automatic choice (1 = thesis).
   float density = 1.0F;
+  /// Where the boxes of the triangles touch more than 2^22 + this many cells a triangle, the grid
+  /// is made coarser until they no longer do. Real scenes have a few; long triangles across fine
+  /// cells would fill the memory otherwise.
+  int most_references = 32;
 
   friend bool operator==(const GridSettings&, const GridSettings&) = default;
 };
@@ -64,6 +92,9 @@ struct KdTreeSettings {
   float traversal_cost = 1.0F;
   float intersection_cost = 80.0F;
   float empty_bonus = 0.5F;
+  /// No more than 65,536 + this many references a triangle; and as many nodes. Where that is not
+  /// enough the tree is built anew with each node's share of it fixed by its triangles.
+  int most_references = 16;
 
   friend bool operator==(const KdTreeSettings&, const KdTreeSettings&) = default;
 };
@@ -72,8 +103,11 @@ struct BvhSettings {
   UpdateCase update_case = UpdateCase::real;
   /// Seed of UpdateCase::average.
   std::uint64_t seed = 1;
-  /// Policy::automatic: rebuild when the SAH cost has grown to this multiple of what it was after
-  /// the last build. Near 1: almost every frame. Large: never.
+  /// "auto": what Policy::automatic goes by.
+  AutoRule auto_rule = AutoRule::cost;
+  /// AutoRule::quality, and AutoRule::cost until costs are known: rebuild when the SAH cost has
+  /// grown to this multiple of what it was after the last build. Near 1: almost every frame.
+  /// Large: never.
   float rebuild_at = 1.25F;
 
   friend bool operator==(const BvhSettings&, const BvhSettings&) = default;
@@ -90,6 +124,7 @@ struct StructureSpec {
   StructureKind kind = StructureKind::bvh_median;
   StructureSettings settings = BvhSettings{};
   MemoryMode memory = MemoryMode::pool;
+  IntersectionMode intersection = IntersectionMode::precise;
 
   friend bool operator==(const StructureSpec&, const StructureSpec&) = default;
 };
@@ -99,10 +134,17 @@ std::string_view to_string(StructureKind kind);
 std::string_view to_string(Policy policy);
 std::string_view to_string(MemoryMode mode);
 std::string_view to_string(UpdateCase update_case);
+std::string_view to_string(AutoRule rule);
+std::string_view to_string(IntersectionMode mode);
 std::optional<StructureKind> parse_structure_kind(std::string_view name);
 std::optional<Policy> parse_policy(std::string_view name);
 std::optional<MemoryMode> parse_memory_mode(std::string_view name);
 std::optional<UpdateCase> parse_update_case(std::string_view name);
+std::optional<AutoRule> parse_auto_rule(std::string_view name);
+/// What these settings say of Policy::automatic; the default for kinds that have no such setting.
+AutoRule auto_rule(const StructureSettings& settings);
+std::optional<IntersectionMode> parse_intersection_mode(std::string_view name);
+const std::vector<IntersectionMode>& all_intersection_modes();
 /// All policies, in the order of the documentation.
 const std::vector<Policy>& all_policies();
 const std::vector<StructureKind>& all_structure_kinds();

@@ -22,6 +22,9 @@ struct BuildStats {
   std::uint64_t references = 0;
   std::uint64_t largest_leaf = 0;  ///< most references in one leaf or cell
   std::uint64_t bytes = 0;         ///< memory that tracing needs (nodes, references, cells)
+  /// Whether the structure is coarser than its settings ask for, since it would have needed more
+  /// memory than they allow (most_references).
+  bool limited = false;
   /// Expected cost of a random ray that hits the scene's box, in units of one triangle test with a
   /// step costing 1 (Goldsmith and Salmon 1987; MacDonald and Booth 1990): for trees
   /// sum(area(inner)) + sum(area(leaf) * references), divided by area(root); for grids the same

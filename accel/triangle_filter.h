@@ -1,6 +1,6 @@
 #pragma once
 
-#include "accel/counters.h"
+#include "accel/four_triangles.h"
 #include "accel/triangle_hit.h"
 #include "shaders/shared/tolerance.h"
 
@@ -10,10 +10,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace encore::accel {
 
@@ -33,6 +29,9 @@ class TriangleFilter {
  public:
   explicit TriangleFilter(const scene::Ray& ray)
       : ray_(ray), direction_(scaled_to_one(ray.direction)) {}
+
+  /// How far to search for a hit that is to replace one at `best` (triangle_tester.h).
+  static float reach(float best) { return best; }
 
   /// Tests one triangle; true if it became the best hit.
   bool test(const scene::Triangle* triangles, std::uint32_t index, scene::Hit& best) const {
@@ -114,12 +113,10 @@ class TriangleFilter {
   /// The same test on four triangles; bit i is set unless triangle i is certainly missed.
   [[nodiscard]] unsigned candidates_of_four(const scene::Triangle* triangles,
                                             const std::uint32_t* four) const {
-    // Load vertex by vertex and transpose to structure of arrays; the fourth lane of each load
-    // holds the triangle's other members and is not used.
     __m128 v0x, v0y, v0z, v1x, v1y, v1z, v2x, v2y, v2z;
-    gather(triangles, four, 0, v0x, v0y, v0z);
-    gather(triangles, four, 4, v1x, v1y, v1z);
-    gather(triangles, four, 8, v2x, v2y, v2z);
+    gather_corners(triangles, four, 0, v0x, v0y, v0z);
+    gather_corners(triangles, four, 1, v1x, v1y, v1z);
+    gather_corners(triangles, four, 2, v2x, v2y, v2z);
     const __m128 e1x = _mm_sub_ps(v1x, v0x), e1y = _mm_sub_ps(v1y, v0y), e1z = _mm_sub_ps(v1z, v0z);
     const __m128 e2x = _mm_sub_ps(v2x, v0x), e2y = _mm_sub_ps(v2y, v0y), e2z = _mm_sub_ps(v2z, v0z);
     const __m128 sx = _mm_sub_ps(_mm_set1_ps(ray_.origin.x), v0x);
@@ -142,8 +139,8 @@ class TriangleFilter {
     const __m128 qz = difference(sx, e1y, sy, e1x);
     const __m128 v = _mm_xor_ps(dot(dx, dy, dz, qx, qy, qz), sign);
 
-    const __m128 edge = _mm_max_ps(largest(e1x, e1y, e1z), largest(e2x, e2y, e2z));
-    const __m128 reach = _mm_max_ps(edge, largest(sx, sy, sz));
+    const __m128 edge = _mm_max_ps(accel::largest(e1x, e1y, e1z), accel::largest(e2x, e2y, e2z));
+    const __m128 reach = _mm_max_ps(edge, accel::largest(sx, sy, sz));
     const __m128 largest_result = _mm_mul_ps(_mm_mul_ps(_mm_set1_ps(kLargestResult), edge), reach);
     const __m128 error =
         _mm_add_ps(_mm_mul_ps(largest_result, _mm_set1_ps(kErrorFactor)), _mm_set1_ps(kUnderflow));
@@ -153,30 +150,6 @@ class TriangleFilter {
                   _mm_cmpgt_ps(_mm_add_ps(u, v), _mm_add_ps(det, error)));
     const __m128 missed = _mm_and_ps(outside, _mm_cmpgt_ps(det, error));
     return static_cast<unsigned>(_mm_movemask_ps(missed)) ^ 0xFU;
-  }
-
-  static void gather(const scene::Triangle* triangles, const std::uint32_t* four, int offset,
-                     __m128& x, __m128& y, __m128& z) {
-    const auto load = [&](int lane) {
-      return _mm_loadu_ps(reinterpret_cast<const float*>(triangles + four[lane]) + offset);
-    };
-    const __m128 r0 = load(0), r1 = load(1), r2 = load(2), r3 = load(3);
-    const __m128 xy01 = _mm_unpacklo_ps(r0, r1), xy23 = _mm_unpacklo_ps(r2, r3);
-    const __m128 zw01 = _mm_unpackhi_ps(r0, r1), zw23 = _mm_unpackhi_ps(r2, r3);
-    x = _mm_movelh_ps(xy01, xy23);
-    y = _mm_movehl_ps(xy23, xy01);
-    z = _mm_movelh_ps(zw01, zw23);
-  }
-  static __m128 difference(__m128 a, __m128 b, __m128 c, __m128 d) {
-    return _mm_sub_ps(_mm_mul_ps(a, b), _mm_mul_ps(c, d));
-  }
-  static __m128 dot(__m128 ax, __m128 ay, __m128 az, __m128 bx, __m128 by, __m128 bz) {
-    return _mm_add_ps(_mm_add_ps(_mm_mul_ps(ax, bx), _mm_mul_ps(ay, by)), _mm_mul_ps(az, bz));
-  }
-  static __m128 largest(__m128 x, __m128 y, __m128 z) {
-    const __m128 sign_bit = _mm_set1_ps(-0.0F);
-    return _mm_max_ps(_mm_andnot_ps(sign_bit, x),
-                      _mm_max_ps(_mm_andnot_ps(sign_bit, y), _mm_andnot_ps(sign_bit, z)));
   }
 #endif
 

@@ -4,6 +4,7 @@
 #include "shaders/shared/tolerance.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cmath>
@@ -13,6 +14,7 @@ namespace encore::accel {
 
 namespace {
 
+using glm::dvec2;
 using glm::dvec3;
 
 double largest(const dvec3& v) {
@@ -25,6 +27,45 @@ constexpr double kSlopeRounding = ENCORE_SLOPE_ROUNDING;
 // Above this multiple the distance is exact to far below single precision.
 constexpr double kSlopeSafe = ENCORE_SLOPE_SAFE;
 static_assert(kSlopeRounding == 0x1p-48 && kSlopeSafe == 0x1p-20);
+
+/// Makes the ray the z axis: where a point relative to its origin lies beside it.
+class Shear {
+ public:
+  explicit Shear(const dvec3& direction) {
+    const dvec3 size{std::fabs(direction.x), std::fabs(direction.y), std::fabs(direction.z)};
+    kz_ = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    kx_ = kz_ == 2 ? 0 : kz_ + 1;
+    ky_ = kx_ == 2 ? 0 : kx_ + 1;
+    x_ = direction[kx_] / direction[kz_];
+    y_ = direction[ky_] / direction[kz_];
+  }
+  dvec2 operator()(const dvec3& p) const { return {p[kx_] - x_ * p[kz_], p[ky_] - y_ * p[kz_]}; }
+
+ private:
+  int kx_, ky_, kz_;
+  double x_, y_;
+};
+
+/// What rounding took from a product, exactly (Dekker 1971).
+double rest_of_product(double a, double b, double product) {
+  constexpr double kSplit = 0x1p27 + 1;
+  const double a_scaled = kSplit * a;
+  const double b_scaled = kSplit * b;
+  const double a_high = a_scaled - (a_scaled - a);
+  const double b_high = b_scaled - (b_scaled - b);
+  const double a_low = a - a_high;
+  const double b_low = b - b_high;
+  return a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+}
+
+/// On which side of the edge from p to q the ray passes. The sign is exact for these p and q:
+/// rounding keeps the order of two products unless it makes them equal.
+double edge_function(const dvec2& p, const dvec2& q) {
+  const double forward = p.x * q.y;
+  const double backward = p.y * q.x;
+  if (forward != backward) return forward - backward;
+  return rest_of_product(p.x, q.y, forward) - rest_of_product(p.y, q.x, backward);
+}
 
 /// Keeps the distance of a triangle that is almost degenerate or edge-on inside its own box's
 /// stretch of the ray, so that structures, which only know boxes and planes, find it where it is.
@@ -42,21 +83,20 @@ bool confine_to_box(const scene::Ray& ray, const scene::Triangle& triangle, floa
 
 bool decide_hit(const scene::Ray& ray, const scene::Triangle& triangle, std::uint32_t index,
                 scene::Hit& best) {
-  // Vertices relative to the origin, and the (doubled) signed volumes that the ray's line spans
-  // with each edge: the unnormalised barycentric weights of the opposite vertices. P x Q is taken
-  // as (P - Q) x (P + Q) / 2, which keeps its precision when the origin is far away: the edge is
-  // small and exact, where P and Q would cancel.
   const dvec3 v0(triangle.v0);
   const dvec3 v1(triangle.v1);
   const dvec3 v2(triangle.v2);
   const dvec3 origin(ray.origin);
   const dvec3 direction(ray.direction);
   const dvec3 a = v0 - origin;
-  const dvec3 b = v1 - origin;
-  const dvec3 c = v2 - origin;
-  const double weight_a = glm::dot(direction, glm::cross(v2 - v1, c + b));
-  const double weight_b = glm::dot(direction, glm::cross(v0 - v2, a + c));
-  const double weight_c = glm::dot(direction, glm::cross(v1 - v0, b + a));
+  // The unnormalised barycentric weights of the vertices.
+  const Shear shear(direction);
+  const dvec2 sheared_a = shear(a);
+  const dvec2 sheared_b = shear(v1 - origin);
+  const dvec2 sheared_c = shear(v2 - origin);
+  const double weight_a = edge_function(sheared_c, sheared_b);
+  const double weight_b = edge_function(sheared_a, sheared_c);
+  const double weight_c = edge_function(sheared_b, sheared_a);
 
   // Inside if no two of them disagree in sign.
   const bool any_negative = weight_a < 0 || weight_b < 0 || weight_c < 0;

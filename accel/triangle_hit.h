@@ -14,12 +14,14 @@ namespace encore::accel {
 /// included, from either side), t_min < t, and t < best.t, or t == best.t and `index` is lower than
 /// best.triangle. Distances and barycentrics are computed in double and rounded once.
 ///
-/// The edge functions are triple products direction . ((P - Q) x (P + Q)) of origin-relative
-/// vertices (Plücker coordinates, as in Embree's robust mode; compare Woop, Benthin and Wald 2013).
-/// Differences of vertices and origin are exact in double unless their exponents differ by more
-/// than 29, and swapping P and Q flips the sign bit for bit, so two triangles that share an edge
-/// never both miss a ray through it. Triangles
-/// that are degenerate, or seen edge-on, to within the rounding of double precision are not hit.
+/// The ray is made the z axis by a permutation and a shear, and the edge functions of the sheared
+/// vertices decide (Woop, Benthin and Wald 2013), all in double. A sheared vertex depends on ray
+/// and vertex alone, and the sign of an edge function is exact for the two that it is given: so the
+/// ray meets the vertices' picture as a plane mesh, and no ray passes between triangles that share
+/// an edge, nor between all those around a vertex. (Edge functions whose signs are not exact can
+/// all say that the ray passes on the same side of a vertex, which then belongs to no triangle.)
+/// Triangles that are degenerate, or seen edge-on, to within the rounding of double precision are
+/// not hit.
 /// There is no absolute epsilon: scaling scene and ray by a power of two scales t exactly.
 bool decide_hit(const scene::Ray& ray, const scene::Triangle& triangle, std::uint32_t index,
                 scene::Hit& best);

@@ -1,5 +1,7 @@
 #include "accel/update_policy.h"
 
+#include <optional>
+
 namespace encore::accel {
 
 bool updates(Policy policy, const AccelerationStructure& structure) {
@@ -22,6 +24,19 @@ UpdateAction decide(Policy policy, const AccelerationStructure& structure,
   }
   const bool spent = policy == Policy::automatic && structure.decayed();
   return spent ? UpdateAction::build : UpdateAction::update;
+}
+
+UpdateAction decide(Policy policy, const AccelerationStructure& structure,
+                    scene::TriangleChange change, const AutoPolicy& costs) {
+  const UpdateAction by_quality = decide(policy, structure, change);
+  const bool free = policy == Policy::automatic && change == scene::TriangleChange::moved &&
+                    structure.can_refit();
+  if (!free) return by_quality;
+  // A tree that decays, but whose decay nobody knows, can only be built.
+  if (!structure.decay() && structure.decayed()) return UpdateAction::build;
+  const std::optional<bool> builds = costs.builds_next();
+  if (!builds) return by_quality;
+  return *builds ? UpdateAction::build : UpdateAction::update;
 }
 
 void carry_out(UpdateAction action, Policy policy, AccelerationStructure& structure,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/acceleration_structure.h"
+#include "accel/auto_policy.h"
 #include "accel/settings.h"
 #include "scene/triangles.h"
 
@@ -21,11 +22,14 @@ enum class UpdateAction { none, build, update };
 ///
 /// Under `automatic` a structure is judged by what the last carry_out() left, so that a frame pays
 /// for an update or a build, never for both; the frame that is found too bad is traced as it is.
-/// The rule is Lauterbach et al.'s (2006): rebuild when the hierarchy has lost a set share of its
-/// quality. Weighing times against each other (Kopta et al. 2012) would rebuild less where builds
-/// are dear, but at other frames on every run and machine, and a session could not be repeated.
+/// The first of the two goes by quality alone (AutoRule::quality; Lauterbach et al. 2006): rebuild
+/// when the hierarchy has lost a set share of it, at the same frames on every run and machine. The
+/// second goes by what building, updating and tracing were seen to cost (AutoRule::cost), as soon
+/// as that is known and unless `costs` says otherwise.
 UpdateAction decide(Policy policy, const AccelerationStructure& structure,
                     scene::TriangleChange change);
+UpdateAction decide(Policy policy, const AccelerationStructure& structure,
+                    scene::TriangleChange change, const AutoPolicy& costs);
 
 /// Does it. Under `automatic` the quality of what came out is looked at as well (a pass over the
 /// nodes, part of the build or update); whoever updates by other means calls assess() himself.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/acceleration_structure.h"
+#include "shaders/shared/tolerance.h"
 
 #include <cstdint>
 #include <span>
@@ -37,13 +38,17 @@ bool within_one_rounding(float a, float b);
 /// that starts almost on the triangle) to double precision of the coordinates involved.
 bool same_distance(float a, float b, const Ray& ray, const Triangle& triangle);
 
-/// Holds `structure` to `reference`: nearest hits bit for bit, and any-hit against them.
+/// Holds `structure` to `reference`: nearest hits bit for bit, and any-hit against them. Where the
+/// two have different intersection modes, distances are the same within kModeDistance and
+/// barycentrics are not compared; so brute force in the precise mode is a reference for all modes.
+inline constexpr float kModeDistance = 4 * ENCORE_WATERTIGHT_DISTANCE;
 HitComparison compare_hits(const AccelerationStructure& structure,
                            const AccelerationStructure& reference, std::span<const Ray> rays);
 
 /// Holds `structure` to the exact oracle over `triangles`. Distances and barycentrics may differ by
-/// one rounding; a different triangle is counted as wrong unless both are hit at the same rounded
-/// distance or the ray passes an edge within double rounding (`edge_cases` counts those).
+/// one rounding, distances in modes other than precise by kModeDistance; a different triangle is
+/// counted as wrong unless both are hit at the same rounded distance or the ray passes an edge
+/// within double rounding (`edge_cases` counts those).
 struct OracleComparison {
   HitComparison hits;
   std::uint64_t edge_cases = 0;

@@ -64,7 +64,7 @@ class Bvh final : public TracedStructure<Bvh> {
   [[nodiscard]] const BvhSettings& settings() const { return settings_; }
   void visit(const std::function<bool(const NodeView&)>& visitor) const override;
 
-  template <bool AnyHit, class Counter>
+  template <bool AnyHit, class Tester, class Counter>
   void trace(const Ray& ray, Hit& hit, Counter& counter) const;
 
   /// The nodes; the root is the first. Empty if there are no triangles.

@@ -1,6 +1,6 @@
 #include "accel/bvh/bvh.h"
 #include "accel/bvh/two_boxes.h"
-#include "accel/triangle_filter.h"
+#include "accel/triangle_tester.h"
 
 #include <array>
 #include <limits>
@@ -14,16 +14,16 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
-template <bool AnyHit, class Counter>
+template <bool AnyHit, class Tester, class Counter>
 void Bvh::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   if (triangles_.empty()) return;
   const gpu::BvhNode* const nodes = root();
   const Triangle* const triangles = triangles_.data();
-  const TriangleFilter filter(ray);
+  const Tester tester(ray);
   if (nodes->count != 0) {
     counter.node(place(nodes->first, 1), ray.t_min, kUnknown);
     counter.triangle(triangles, nodes->first, hit);
-    filter.test(triangles, nodes->first, hit);
+    tester.test(triangles, nodes->first, hit);
     return;
   }
 
@@ -47,7 +47,7 @@ void Bvh::trace(const Ray& ray, Hit& hit, Counter& counter) const {
       // one is left to the branch predictor on purpose: choosing without branches makes the load
       // of the next node wait for this test, which was measured to halve the speed.
       const gpu::BvhNode* const children = nodes + first;
-      const TwoEntries entries = box_ray.test(children, hit.t);
+      const TwoEntries entries = box_ray.test(children, Tester::reach(hit.t));
       const auto place_of = [this, children](int child) {
         return [=, this] { return place(children[child].first, children[child].count); };
       };
@@ -72,13 +72,13 @@ void Bvh::trace(const Ray& ray, Hit& hit, Counter& counter) const {
       }
     } else {
       counter.triangle(triangles, first, hit);
-      if (filter.test(triangles, first, hit) && AnyHit) return;
+      if (tester.test(triangles, first, hit) && AnyHit) return;
     }
     // The next waiting node that begins before the best hit, or not certainly behind it.
     for (;;) {
       if (waiting_count == 0) return;
       --waiting_count;
-      if (!(waiting[waiting_count].enter * kNarrow > hit.t)) break;
+      if (!(waiting[waiting_count].enter * kNarrow > Tester::reach(hit.t))) break;
       const Waiting& left_out = waiting[waiting_count];
       counter.skipped(place(left_out.first, left_out.count), left_out.enter, hit.t);
     }
@@ -88,9 +88,6 @@ void Bvh::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   }
 }
 
-template void Bvh::trace<false, NotCounting>(const Ray&, Hit&, NotCounting&) const;
-template void Bvh::trace<false, Counting>(const Ray&, Hit&, Counting&) const;
-template void Bvh::trace<false, Recording>(const Ray&, Hit&, Recording&) const;
-template void Bvh::trace<true, NotCounting>(const Ray&, Hit&, NotCounting&) const;
+ENCORE_COMPILE_TRACE(Bvh)
 
 }  // namespace encore::accel

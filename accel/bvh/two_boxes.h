@@ -1,23 +1,20 @@
 #pragma once
 
+#include "accel/box_hit.h"
 #include "accel/bvh/four_floats.h"
 #include "accel/tolerance.h"
 #include "scene/ray.h"
 #include "shaders/shared/gpu_types.h"
 
-#include <cmath>
 #include <limits>
 
 namespace encore::accel {
 
 /// 1 / component of a ray direction, for slab tests that take min and max of both planes' distances
 /// instead of looking at the sign: +inf for either zero, so that a plane through the origin gives
-/// 0 * inf = NaN and is dropped; NaN for a component that is not zero but too small to invert, so
-/// that the axis never rejects anything.
+/// 0 * inf = NaN and is dropped; else plane_inverse().
 inline float slab_inverse(float component) {
-  if (component == 0.0F) return std::numeric_limits<float>::infinity();
-  const float inverse = 1.0F / component;
-  return std::isinf(inverse) ? std::numeric_limits<float>::quiet_NaN() : inverse;
+  return component == 0.0F ? std::numeric_limits<float>::infinity() : plane_inverse(component);
 }
 
 /// Where a ray enters two boxes, and which of them it meets at all.
@@ -29,8 +26,8 @@ struct TwoEntries {
 
 /// A ray prepared to be tested against the two children of a node at once. Decides as
 /// box_stretch() of box_hit.h does, with the same widening (Ize 2013), for every ray whose
-/// direction has no negative zeros; for those, and for components too small to invert, it is exact
-/// where box_stretch() is merely on the safe side.
+/// direction has no negative zeros; for those it is exact where box_stretch() is merely on the safe
+/// side.
 template <class F4>
 class TwoBoxRay {
  public:

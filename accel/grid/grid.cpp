@@ -24,11 +24,14 @@ constexpr double kStartsDone = 0.8;
 std::uint64_t cell_limit(std::uint64_t triangles) {
   return (1U << 24) + 64 * triangles;
 }
-std::uint64_t reference_limit(std::uint64_t triangles) {
-  return std::min<std::uint64_t>((1U << 22) + 32 * triangles, kMostReferences);
+}  // namespace
+
+std::uint64_t grid_reference_limit(const GridSettings& settings, std::uint64_t triangles) {
+  const auto each = static_cast<std::uint64_t>(std::max(1, settings.most_references));
+  return std::min<std::uint64_t>((1U << 22) + each * triangles, kMostReferences);
 }
 
-std::uint32_t desired_cells(const GridSettings& settings, std::uint64_t triangles) {
+std::uint32_t grid_cells_per_axis(const GridSettings& settings, std::uint64_t triangles) {
   const double automatic =
       std::round(static_cast<double>(settings.density) * std::cbrt(static_cast<double>(triangles)));
   const double wanted = settings.cells_per_axis > 0 ? settings.cells_per_axis : automatic;
@@ -39,8 +42,6 @@ std::uint32_t desired_cells(const GridSettings& settings, std::uint64_t triangle
   while (std::uint64_t{cells} * cells * cells > cell_limit(triangles)) --cells;
   return cells;
 }
-
-}  // namespace
 
 void Grid::build(std::span<const Triangle> triangles) {
   if (triangles.size() > kMostReferences) {
@@ -96,14 +97,16 @@ Bounds Grid::find_bounds(BuildMeter& meter) const {
 
 // Sets up the layout and every triangle's range, with as many cells as the limits allow.
 void Grid::choose_cells(const Bounds& bounds, BuildMeter& meter) {
-  const std::uint64_t limit = reference_limit(triangles_.size());
+  const std::uint64_t limit = grid_reference_limit(settings_, triangles_.size());
+  limited_ = false;
   ranges_.reset(triangles_.size(), mode_, allocations_);
-  std::uint32_t cells = desired_cells(settings_, triangles_.size());
+  std::uint32_t cells = grid_cells_per_axis(settings_, triangles_.size());
   std::uint64_t entries = 0;
   while (true) {
     layout_.divide(bounds, cells, mode_, allocations_);
     entries = find_ranges(meter);
     if (entries <= limit || cells == 1) break;
+    limited_ = true;
     // Volumes shrink about with the cube of the resolution, but never by less than a tenth, so few
     // rounds are needed. With one cell each triangle has one reference, which is within the limit.
     const double ratio = std::cbrt(static_cast<double>(limit) / static_cast<double>(entries));
@@ -180,6 +183,7 @@ BuildStats Grid::stats() const {
   stats.references = references_.size();
   stats.bytes = cell_starts_.bytes().size() + references_.bytes().size() +
                 layout_.all_planes().bytes().size();
+  stats.limited = limited_;
   // A ray enters a cell with the probability area(cell) / area(grid); it then pays one step and
   // one test for each reference. Without area every ray meets everything.
   double cost = 0.0;

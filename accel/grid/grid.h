@@ -17,7 +17,8 @@ namespace encore::accel {
 /// Where we differ from the thesis: an axis without extent gets one cell, since more would all be
 /// the same plane. M is at most 1024, and at most the cube root of 2^24 + 64 #T, also when set by
 /// hand. Large triangles can put #T references each into any grid; so if all bounds together touch
-/// more than 2^22 + 32 #T cells, M is lowered until they no longer do (the same M for both kinds).
+/// more than 2^22 + 32 #T cells (GridSettings::most_references), M is lowered until they no longer
+/// do (the same M for both kinds).
 class Grid final : public TracedStructure<Grid> {
  public:
   /// `kind` is grid_exact or grid_box.
@@ -38,7 +39,7 @@ class Grid final : public TracedStructure<Grid> {
   [[nodiscard]] std::span<const std::uint32_t> cell(std::uint32_t x, std::uint32_t y,
                                                     std::uint32_t z) const;
 
-  template <bool AnyHit, class Counter>
+  template <bool AnyHit, class Tester, class Counter>
   void trace(const Ray& ray, Hit& hit, Counter& counter) const;
 
  private:
@@ -74,9 +75,15 @@ class Grid final : public TracedStructure<Grid> {
   Array<std::uint32_t> entries_;
   Array<float> scaled_planes_;
 
+  bool limited_ = false;  ///< M was lowered
   AllocationCount allocations_;
   std::uint64_t triangle_box_tests_ = 0;
 };
+
+/// What the class promises: the most cells that the boxes of so many triangles may touch, and the
+/// cells per axis that a grid begins with.
+std::uint64_t grid_reference_limit(const GridSettings& settings, std::uint64_t triangles);
+std::uint32_t grid_cells_per_axis(const GridSettings& settings, std::uint64_t triangles);
 
 /// Writes all cells of a range to `out`, the first one marked, and returns how many there are. May
 /// write up to 8 values past them.

@@ -2,7 +2,7 @@
 #include "accel/grid/grid.h"
 #include "accel/grid/grid_walk.h"
 #include "accel/tolerance.h"
-#include "accel/triangle_filter.h"
+#include "accel/triangle_tester.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Meets the triangles of cells on behalf of one ray.
-template <bool AnyHit, class Counter>
+template <bool AnyHit, class Tester, class Counter>
 class CellVisitor {
  public:
   CellVisitor(const Triangle* triangles, const std::uint32_t* starts,
@@ -24,7 +24,7 @@ class CellVisitor {
       : triangles_(triangles),
         starts_(starts),
         references_(references),
-        filter_(ray),
+        tester_(ray),
         hit_(hit),
         counter_(counter) {}
 
@@ -35,16 +35,17 @@ class CellVisitor {
     const std::uint32_t count = starts_[cell + 1] - first;
     if (count == 0) return false;
     counter_.triangles(triangles_, references_ + first, count, hit_);
-    const bool changed = filter_.test(triangles_, references_ + first, count, hit_);
+    const bool changed = tester_.test(triangles_, references_ + first, count, hit_);
     return AnyHit && changed;
   }
-  [[nodiscard]] float best() const { return hit_.t; }
+  // Nothing that begins behind this can matter any more.
+  [[nodiscard]] float best() const { return Tester::reach(hit_.t); }
 
  private:
   const Triangle* triangles_;
   const std::uint32_t* starts_;
   const std::uint32_t* references_;
-  TriangleFilter filter_;
+  Tester tester_;
   Hit& hit_;
   Counter& counter_;
 };
@@ -160,17 +161,17 @@ void walk_thick(const GridLayout& layout, const Ray& ray, Visitor& visit) {
 
 }  // namespace
 
-template <bool AnyHit, class Counter>
+template <bool AnyHit, class Tester, class Counter>
 void Grid::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   if (references_.empty()) return;
-  CellVisitor<AnyHit, Counter> visit(triangles_.data(), cell_starts_.data(), references_.data(),
-                                     ray, hit, counter);
+  CellVisitor<AnyHit, Tester, Counter> visit(triangles_.data(), cell_starts_.data(),
+                                             references_.data(), ray, hit, counter);
   counter.cells([this](std::uint32_t cell) {
     const auto [x, y, z] = layout_.position(cell);
     return layout_.cell_bounds(x, y, z);
   });
   const BoxRay box_ray(ray);
-  if (!invertible(ray, box_ray)) return walk_thick(layout_, ray, visit);
+  if (!invertible(box_ray)) return walk_thick(layout_, ray, visit);
 
   const Bounds bounds = layout_.bounds();
   const BoxStretch stretch = box_stretch(bounds.min, bounds.max, box_ray, ray.t_min, ray.t_max);
@@ -184,9 +185,6 @@ void Grid::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   }
 }
 
-template void Grid::trace<false, NotCounting>(const Ray&, Hit&, NotCounting&) const;
-template void Grid::trace<false, Counting>(const Ray&, Hit&, Counting&) const;
-template void Grid::trace<false, Recording>(const Ray&, Hit&, Recording&) const;
-template void Grid::trace<true, NotCounting>(const Ray&, Hit&, NotCounting&) const;
+ENCORE_COMPILE_TRACE(Grid)
 
 }  // namespace encore::accel

@@ -11,19 +11,11 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A normal number: neither 0, denormal, infinite nor NaN.
-bool is_normal(float x) {
-  return std::fabs(x) >= std::numeric_limits<float>::min() &&
-         std::fabs(x) <= std::numeric_limits<float>::max();
-}
-
 }  // namespace
 
-bool invertible(const scene::Ray& ray, const BoxRay& box_ray) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!is_normal(box_ray.inverse[axis]) && ray.direction[axis] != 0.0F) return false;
-  }
-  return true;
+bool invertible(const BoxRay& box_ray) {
+  return !std::isnan(box_ray.inverse.x) && !std::isnan(box_ray.inverse.y) &&
+         !std::isnan(box_ray.inverse.z);
 }
 
 GridWalk::GridWalk(const GridLayout& layout, const scene::Ray& ray, const BoxRay& box_ray,
@@ -82,10 +74,10 @@ ThickAxis::ThickAxis(const GridLayout& layout, const scene::Ray& ray, int axis)
       size_(layout.size(axis)),
       stride_(layout.stride(axis)),
       origin_(ray.origin[axis]),
-      inverse_(1.0F / ray.direction[axis]),
+      inverse_(plane_inverse(ray.direction[axis])),
       spacing_(kInfinity),
       forward_(!std::signbit(ray.direction[axis])),
-      timed_(is_normal(inverse_)),
+      timed_(std::isfinite(inverse_)),
       first_(0),
       last_(size_) {
   if (timed_) {

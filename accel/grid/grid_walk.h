@@ -10,9 +10,9 @@
 
 namespace encore::accel {
 
-/// Whether each direction component is 0 or has a reciprocal of full precision. Others (beyond
-/// about 1e38 or below 1e-38) give no plane distances.
-[[nodiscard]] bool invertible(const scene::Ray& ray, const BoxRay& box_ray);
+/// Whether each direction component is 0 or has a plane_inverse(). Others (beyond about 1e38 or
+/// below 1e-38) give no plane distances.
+[[nodiscard]] bool invertible(const BoxRay& box_ray);
 
 /// The start of a grid traversal (Amanatides and Woo 1987). Unlike the paper, plane distances are
 /// not accumulated: each comes from the stored plane and the ray's own origin, and so has a

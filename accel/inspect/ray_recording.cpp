@@ -1,6 +1,6 @@
 #include "accel/inspect/ray_recording.h"
 
-#include "accel/triangle_hit.h"
+#include "accel/triangle_tester.h"
 
 #include <limits>
 
@@ -12,7 +12,8 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
-Recording::Recording(const scene::Ray& ray, RayPath& path) : ray_(ray), box_ray_(ray), path_(path) {
+Recording::Recording(const scene::Ray& ray, IntersectionMode mode, RayPath& path)
+    : ray_(ray), mode_(mode), box_ray_(ray), path_(path) {
   path_.clear();
   path_.recorded = true;
 }
@@ -78,14 +79,14 @@ void Recording::plane(std::uint32_t place, float t, PlaneSides sides) {
 
 void Recording::triangles(const scene::Triangle* triangles, const std::uint32_t* references,
                           std::uint32_t count, scene::Hit best) {
-  for (std::uint32_t i = 0; i < count; ++i) judge(triangles[references[i]], references[i], best);
+  for (std::uint32_t i = 0; i < count; ++i) judge(triangles, references[i], best);
 }
 
 void Recording::triangle(const scene::Triangle* triangles, std::uint32_t index, scene::Hit best) {
-  judge(triangles[index], index, best);
+  judge(triangles, index, best);
 }
 
-void Recording::judge(const scene::Triangle& triangle, std::uint32_t index, scene::Hit& best) {
+void Recording::judge(const scene::Triangle* triangles, std::uint32_t index, scene::Hit& best) {
   ++path_.counters.triangle_tests;
   RayStep step{.event = RayStep::Event::triangle,
                .triangle = index,
@@ -94,9 +95,9 @@ void Recording::judge(const scene::Triangle& triangle, std::uint32_t index, scen
                .u = kUnknown,
                .v = kUnknown};
   scene::Hit alone{.t = ray_.t_max};
-  if (decide_hit(ray_, triangle, index, alone)) {
-    step.result =
-        decide_hit(ray_, triangle, index, best) ? RayStep::Result::hit : RayStep::Result::farther;
+  if (test_triangle(mode_, ray_, triangles, index, alone)) {
+    step.result = test_triangle(mode_, ray_, triangles, index, best) ? RayStep::Result::hit
+                                                                     : RayStep::Result::farther;
     step.hit = true;
     step.enter = alone.t;
     step.u = alone.u;

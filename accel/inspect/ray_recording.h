@@ -2,6 +2,7 @@
 
 #include "accel/box_hit.h"
 #include "accel/inspect/ray_path.h"
+#include "accel/settings.h"
 #include "scene/bounds.h"
 #include "scene/triangle.h"
 
@@ -12,12 +13,12 @@ namespace encore::accel {
 
 /// The counter policy that writes down what a traversal does (counters.h says what the calls mean).
 ///
-/// Triangles are judged one by one by decide_hit(), on a copy of the best hit: traversals test
-/// several at once behind a filter that loses no hit, so the outcome is the same.
+/// Triangles are judged one by one in the mode's arithmetic, on a copy of the best hit: traversals
+/// test several at once, to the same outcome.
 class Recording {
  public:
   /// Starts `path` afresh; only its `most_steps` stays. Both must outlive this.
-  Recording(const scene::Ray& ray, RayPath& path);
+  Recording(const scene::Ray& ray, IntersectionMode mode, RayPath& path);
   /// Writes the last step.
   void end(const scene::Hit& hit);
 
@@ -40,9 +41,10 @@ class Recording {
 
  private:
   void add(const RayStep& step);
-  void judge(const scene::Triangle& triangle, std::uint32_t index, scene::Hit& best);
+  void judge(const scene::Triangle* triangles, std::uint32_t index, scene::Hit& best);
 
   const scene::Ray& ray_;
+  IntersectionMode mode_;
   BoxRay box_ray_;
   RayPath& path_;
   std::function<scene::Bounds(std::uint32_t)> bounds_of_;

@@ -64,6 +64,7 @@ BuildStats KdTree::stats() const {
   stats.triangle_box_tests = memory_.triangle_box_tests;
   stats.nodes = memory_.nodes.size();
   stats.references = memory_.references.size();
+  stats.limited = memory_.limited;
   stats.bytes = memory_.nodes.bytes().size() + memory_.references.bytes().size();
 
   // A box without area (a line, a point) has no chances to compare: every ray is taken to meet all.

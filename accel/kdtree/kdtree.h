@@ -10,8 +10,8 @@ namespace encore::accel {
 /// The kd-trees of thesis 3.2: `kd-median` (KD-M) halves boxes, the axes taking turns; `kd-sah`
 /// (KD-S) splits where the surface area heuristic wants it. They differ in the splitter only.
 ///
-/// Memory is bounded on any input: depth by kKdDepthCap, references by KdLimits::references, nodes
-/// by 2^30.
+/// Memory is bounded on any input: depth by kKdDepthCap, references and nodes by
+/// KdLimits::references each, and nodes by 2^30.
 class KdTree final : public TracedStructure<KdTree> {
  public:
   /// `kind`: kd_median or kd_sah.
@@ -27,7 +27,7 @@ class KdTree final : public TracedStructure<KdTree> {
   void visit(const std::function<bool(const NodeView&)>& visitor) const override;
 
   /// Front to back with a stack (Pharr and Humphreys 2004, section 4.4.3), see kdtree_traverse.cpp.
-  template <bool AnyHit, class Counter>
+  template <bool AnyHit, class Tester, class Counter>
   void trace(const Ray& ray, Hit& hit, Counter& counter) const;
 
   /// Work of the last build in elementary steps, independent of the machine: references

@@ -16,8 +16,8 @@ using scene::Bounds;
 constexpr std::size_t kSmallScene = 5000;
 constexpr std::uint32_t kSmallSceneLeaf = 2;
 constexpr std::uint32_t kLeaf = 10;
-constexpr std::uint64_t kReferencesPerTriangle = 16;
 constexpr std::uint64_t kReferencesOnTop = 65536;
+constexpr std::uint64_t kWaitingPerTriangle = 4;
 constexpr std::uint64_t kMostReferences = 0xFFFFFFFEU;
 
 template <class T>
@@ -40,31 +40,52 @@ KdLimits kd_limits(const KdTreeSettings& settings, std::size_t triangle_count) {
                               : (triangle_count < kSmallScene ? kSmallSceneLeaf : kLeaf);
   limits.bad_splits = static_cast<std::uint32_t>(std::max(0, settings.bad_split_retries));
   limits.bad_margin = settings.bad_split_margin;
-  limits.references = std::min<std::uint64_t>(
-      kReferencesPerTriangle * triangle_count + kReferencesOnTop, kMostReferences);
+  // Two, so that the root may be divided.
+  const auto each = static_cast<std::uint64_t>(std::max(2, settings.most_references));
+  limits.references =
+      std::min<std::uint64_t>(each * triangle_count + kReferencesOnTop, kMostReferences);
   return limits;
 }
 
 void KdBuilder::run(const Bounds& bounds, KdSplitter& splitter) {
+  memory_.allocations = {};
+  memory_.references_classified = 0;
+  memory_.triangle_box_tests = 0;
+  shared_out_ = false;
+  if (!grow(bounds, splitter)) {
+    shared_out_ = true;
+    grow(bounds, splitter);
+  }
+  finish();
+}
+
+// Builds all nodes; false if the limit is in the way, which it cannot be once it is shared out.
+bool KdBuilder::grow(const Bounds& bounds, KdSplitter& splitter) {
   start();
   std::array<KdTask, kKdDepthCap + 1> waiting;
   std::size_t waiting_count = 0;
-  KdTask task{.box = bounds, .count = static_cast<std::uint32_t>(triangles_.size())};
+  KdTask task{.box = bounds,
+              .count = static_cast<std::uint32_t>(triangles_.size()),
+              .budget = limits_.references};
   for (;;) {
     if (task.count >= BuildMeter::kNode && meter_.watched()) {
       report(task, {waiting.data(), waiting_count});
     }
     const std::span<const KdReference> references{references_in_work(task.count), task.count};
-    const KdSplit split = must_be_leaf(task) ? KdSplit{} : splitter.choose(task, references);
+    const bool may_split = !must_be_leaf(task);
+    if (may_split && !shared_out_ && beyond_limit(task)) return false;
+    const KdSplit split = may_split ? splitter.choose(task, references) : KdSplit{};
     make_room(memory_.nodes, node_count_ + 1, memory_.allocations);
     if (split.axis >= 0) {
       // An inner node: put the upper child aside and go on with the lower one, which is the next
       // node and so needs no index.
       const Counts counts = partition(task, split);
-      waiting[waiting_count] = child(task, split, true, counts);
-      waiting[waiting_count++].parent = static_cast<std::uint32_t>(node_count_);
+      KdTask& upper = waiting[waiting_count++];
+      upper = child(task, split, true, counts);
+      upper.parent = static_cast<std::uint32_t>(node_count_);
       memory_.nodes[node_count_++] = kd_inner(split.axis, split.position);
       task = child(task, split, false, counts);
+      upper.lower_end = spent() + task.budget;
       in_left_ = true;
       continue;
     }
@@ -75,9 +96,15 @@ void KdBuilder::run(const Bounds& bounds, KdSplitter& splitter) {
     if (!in_left_) right_count_ -= task.count;
     if (waiting_count == 0) break;
     task = waiting[--waiting_count];
+    if (shared_out_) task.budget += task.lower_end - spent();
     in_left_ = false;
     kd_set_upper(memory_.nodes[task.parent], static_cast<std::uint32_t>(node_count_));
   }
+  return true;
+}
+
+void KdBuilder::finish() {
+  memory_.limited = shared_out_;
   memory_.nodes.shrink(node_count_);
   memory_.references.shrink(leaf_references_);
   if (mode_ == MemoryMode::fresh) {
@@ -89,10 +116,11 @@ void KdBuilder::run(const Bounds& bounds, KdSplitter& splitter) {
 void KdBuilder::start() {
   // First guesses of what real scenes need; the arrays grow where more is asked for.
   const std::size_t count = triangles_.size();
-  memory_.allocations = {};
   memory_.depth = 0;
-  memory_.references_classified = 0;
-  memory_.triangle_box_tests = 0;
+  node_count_ = 0;
+  leaf_references_ = 0;
+  right_count_ = 0;
+  in_left_ = true;
   memory_.nodes.reset(count / 2 + 64, mode_, memory_.allocations);
   memory_.references.reset(2 * count + 64, mode_, memory_.allocations);
   memory_.left.reset(count, mode_, memory_.allocations);
@@ -120,10 +148,22 @@ KdReference* KdBuilder::references_in_work(std::uint32_t count) {
 bool KdBuilder::must_be_leaf(const KdTask& task) const {
   if (task.count <= limits_.leaf_triangles) return true;
   if (task.depth >= limits_.depth || task.bad_splits >= limits_.bad_splits) return true;
-  // Each reference may end up on both sides.
-  const std::uint64_t alive =
-      leaf_references_ + right_count_ + (in_left_ ? std::uint64_t{task.count} : 0);
-  return alive + task.count > limits_.references || node_count_ + 2 + kKdDepthCap > kKdMostNodes;
+  if (node_count_ + 2 + kKdDepthCap > kKdMostNodes) return true;
+  // Each reference may end up on both sides, and a leaf needs a share for itself and each of its
+  // references: what child() hands out is enough for that.
+  return shared_out_ && (2 * std::uint64_t{task.count} + 3 > task.budget || too_many_wait(task));
+}
+
+// Each reference may end up on both sides.
+bool KdBuilder::beyond_limit(const KdTask& task) const {
+  const std::uint64_t waiting = right_count_ + (in_left_ ? std::uint64_t{task.count} : 0);
+  return leaf_references_ + waiting + task.count > limits_.references ||
+         node_count_ + 2 > limits_.references || too_many_wait(task);
+}
+
+bool KdBuilder::too_many_wait(const KdTask& task) const {
+  const std::uint64_t waiting = right_count_ + (in_left_ ? std::uint64_t{task.count} : 0);
+  return waiting + task.count > kWaitingPerTriangle * triangles_.size() + kReferencesOnTop / 4;
 }
 
 void KdBuilder::add_leaf(std::span<const KdReference> references) {
@@ -201,6 +241,10 @@ KdTask KdBuilder::child(const KdTask& parent, const KdSplit& split, bool upper,
   task.depth = parent.depth + 1;
   task.bad_splits = parent.bad_splits + (bad ? 1 : 0);
   task.last_axis = split.axis;
+  if (shared_out_) {
+    const std::uint64_t both = std::uint64_t{counts.lower} + counts.upper + 2;
+    task.budget = (parent.budget - 1) * (std::uint64_t{count} + 1) / both;
+  }
   return task;
 }
 

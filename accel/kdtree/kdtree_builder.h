@@ -28,7 +28,9 @@ struct KdTask {
   std::uint32_t count = 0;       ///< references
   std::uint32_t depth = 0;       ///< the root has 0
   std::uint32_t bad_splits = 0;  ///< on the path from the root
-  int last_axis = 2;             ///< the parent's; 2 at the root, so that round-robin starts at x
+  std::uint64_t budget = 0;     ///< references and nodes of its subtree, where these are shared out
+  std::uint64_t lower_end = 0;  ///< upper children: what may be spent once the lower one is built
+  int last_axis = 2;            ///< the parent's; 2 at the root, so that round-robin starts at x
 };
 
 /// Where to split a node.
@@ -59,9 +61,9 @@ struct KdLimits {
   std::uint32_t leaf_triangles;  ///< a node of at most this many is a leaf
   std::uint32_t bad_splits;      ///< a node below this many bad splits is a leaf
   std::int64_t bad_margin;       ///< a child with at most this many fewer than its parent is bad
-  /// Triangles may be referenced from many leaves. 16 #T + 65,536 in all are the limit (at most
-  /// 2^32 - 2): a node whose split could exceed it becomes a leaf, so that hostile scenes, in which
-  /// every triangle spans everything, cannot fill the memory.
+  /// Triangles may be referenced from many leaves. 16 #T + 65,536 references in all are the limit
+  /// (KdTreeSettings::most_references; at most 2^32 - 2), so that hostile scenes, in which every
+  /// triangle spans everything, cannot fill the memory. See KdBuilder.
   std::uint64_t references;
 };
 KdLimits kd_limits(const KdTreeSettings& settings, std::size_t triangle_count);
@@ -74,6 +76,7 @@ struct KdBuildMemory {
   Array<KdReference> right;  ///< a stack of batches: the upper children that wait
   AllocationCount allocations;
   std::uint32_t depth = 0;                  ///< of the deepest node; the root has 0
+  bool limited = false;                     ///< KdLimits::references was not enough
   std::uint64_t references_classified = 0;  ///< summed over all nodes split
   std::uint64_t triangle_box_tests = 0;     ///< triangles cut to a child's box
 };
@@ -92,7 +95,11 @@ struct KdBuildMemory {
 /// pieces of empty space at the top, with nearly all triangles in one leaf.)
 ///
 /// We also differ from the thesis in that the root counts as no bad split and that there is a limit
-/// on references.
+/// on references. A build that could exceed it, or fill more than as many nodes or a quarter as
+/// many waiting references, begins anew: the limit is now shared out from the root down, to each
+/// child by its triangles, and a node that could exceed its own share is a leaf; what a lower child
+/// leaves of its share goes to the upper one. (Ending the first build's splits where the limit is
+/// met would leave whatever is built last in one leaf.)
 class KdBuilder {
  public:
   KdBuilder(std::span<const scene::Triangle> triangles, const KdLimits& limits, MemoryMode mode,
@@ -110,6 +117,12 @@ class KdBuilder {
   };
 
   void start();
+  bool grow(const scene::Bounds& bounds, KdSplitter& splitter);
+  void finish();
+  [[nodiscard]] bool beyond_limit(const KdTask& task) const;
+  [[nodiscard]] bool too_many_wait(const KdTask& task) const;
+  /// Of the budget: references and nodes so far.
+  [[nodiscard]] std::uint64_t spent() const { return leaf_references_ + node_count_; }
   [[nodiscard]] bool must_be_leaf(const KdTask& task) const;
   void add_leaf(std::span<const KdReference> references);
   void report(const KdTask& task, std::span<const KdTask> waiting);
@@ -128,7 +141,8 @@ class KdBuilder {
   std::size_t node_count_ = 0;
   std::size_t leaf_references_ = 0;
   std::size_t right_count_ = 0;
-  bool in_left_ = true;  ///< where the references of the node in work lie
+  bool in_left_ = true;      ///< where the references of the node in work lie
+  bool shared_out_ = false;  ///< whether tasks have budgets
 };
 
 }  // namespace encore::accel

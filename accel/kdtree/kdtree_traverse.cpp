@@ -2,7 +2,7 @@
 #include "accel/kdtree/kd_node.h"
 #include "accel/kdtree/kdtree.h"
 #include "accel/tolerance.h"
-#include "accel/triangle_filter.h"
+#include "accel/triangle_tester.h"
 
 namespace encore::accel {
 
@@ -22,9 +22,9 @@ struct Waiting {
 /// origin lies. A side is passed over only if t lies outside the stretch by more than the slack.
 ///
 /// A ray that runs inside the plane has t = 0 * inf = NaN, which fails all comparisons: both sides
-/// are visited with the whole stretch. A parallel ray beside the plane has t = +-inf, which picks
+/// are visited with the whole stretch; so are they along an axis without a plane_inverse(). A parallel ray beside the plane has t = +-inf, which picks
 /// the origin's side; a plane behind the origin has t < 0 <= enter, which picks the far side.
-template <bool AnyHit, class Counter>
+template <bool AnyHit, class Tester, class Counter>
 void KdTree::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   const BoxRay box_ray(ray);
   if (triangles_.empty()) return;
@@ -32,7 +32,7 @@ void KdTree::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   counter.scene_box(stretch.hit(), stretch.enter, stretch.leave);
   if (!stretch.hit()) return;
 
-  const TriangleFilter filter(ray);
+  const Tester tester(ray);
   const gpu::KdNode* nodes = memory_.nodes.data();
   const std::uint32_t* references = memory_.references.data();
   Waiting waiting[kKdDepthCap + 1];
@@ -71,14 +71,14 @@ void KdTree::trace(const Ray& ray, Hit& hit, Counter& counter) const {
     const std::uint32_t count = kd_count(node);
     const std::uint32_t* const leaf = references + kd_first(node);
     counter.triangles(triangles_.data(), leaf, count, hit);
-    if (filter.test(triangles_.data(), leaf, count, hit) && AnyHit) return;
+    if (tester.test(triangles_.data(), leaf, count, hit) && AnyHit) return;
 
     // Take the next node that does not begin beyond the best hit. At equal distance it is taken:
     // a triangle of lower index may lie in it.
     for (;;) {
       if (waiting_count == 0) return;
       --waiting_count;
-      if (!(waiting[waiting_count].enter * kNarrow > hit.t)) break;
+      if (!(waiting[waiting_count].enter * kNarrow > Tester::reach(hit.t))) break;
       counter.skipped(waiting[waiting_count].node, waiting[waiting_count].enter, hit.t);
     }
     index = waiting[waiting_count].node;
@@ -87,9 +87,6 @@ void KdTree::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   }
 }
 
-template void KdTree::trace<false, NotCounting>(const Ray&, Hit&, NotCounting&) const;
-template void KdTree::trace<false, Counting>(const Ray&, Hit&, Counting&) const;
-template void KdTree::trace<false, Recording>(const Ray&, Hit&, Recording&) const;
-template void KdTree::trace<true, NotCounting>(const Ray&, Hit&, NotCounting&) const;
+ENCORE_COMPILE_TRACE(KdTree)
 
 }  // namespace encore::accel

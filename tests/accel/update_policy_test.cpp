@@ -132,7 +132,8 @@ TEST(UpdatePolicy, DecayIsTheCostOverThatOfTheBuild) {
   const double built = run.structure->stats().sah_cost;
   for (int i = 0; i < kFrames / 2; ++i) run.frame();
   const double now = run.structure->stats().sah_cost;
-  EXPECT_NEAR(run.structure->decay().value(), now / built, 1e-12);
+  // Of hierarchies of this size a sample of the nodes is looked at.
+  EXPECT_NEAR(run.structure->decay().value(), now / built, 0.02);
   EXPECT_GT(now, built);
   // The same cost, by the definition and from what a visitor sees.
   double sum = 0.0;
