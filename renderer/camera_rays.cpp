@@ -1,5 +1,6 @@
 #include "renderer/camera_rays.h"
 
+#include "renderer/paths/sample_pattern.h"
 #include "scene/camera_basis.h"
 #include "scene/triangle.h"
 
@@ -45,29 +46,53 @@ void check_starts(const CameraFrame& frame) {
   }
 }
 
-void perspective_rays(const CameraFrame& frame, const PixelRect& rect, std::span<scene::Ray> rays) {
+/// Where rays go through their pixels.
+struct Centre {
+  glm::dvec2 operator()(int /*x*/, int /*y*/) const { return {0.5, 0.5}; }
+};
+struct Sampled {
+  CameraSample sample;
+  glm::dvec2 operator()(int x, int y) const {
+    return sample_offset(x, y, sample.sample, sample.samples, sample.seed);
+  }
+};
+
+template <class Place>
+void perspective_rays(const CameraFrame& frame, const PixelRect& rect, const Place& place,
+                      std::span<scene::Ray> rays) {
   std::size_t i = 0;
   for (int y = rect.y0; y < rect.y1; ++y) {
-    const glm::dvec3 row = frame.forward + (frame.center_y - (y + 0.5)) * frame.up;
     for (int x = rect.x0; x < rect.x1; ++x, ++i) {
-      const glm::dvec3 along = row + ((x + 0.5) - frame.center_x) * frame.right;
+      const glm::dvec2 offset = place(x, y);
+      const glm::dvec3 row = frame.forward + (frame.center_y - (y + offset.y)) * frame.up;
+      const glm::dvec3 along = row + ((x + offset.x) - frame.center_x) * frame.right;
       const double scale = 1.0 / std::sqrt(glm::dot(along, along));
       rays[i] = scene::Ray{.origin = frame.origin, .direction = glm::vec3(along * scale)};
     }
   }
 }
 
-void orthographic_rays(const CameraFrame& frame, const PixelRect& rect,
+template <class Place>
+void orthographic_rays(const CameraFrame& frame, const PixelRect& rect, const Place& place,
                        std::span<scene::Ray> rays) {
   const auto direction = glm::vec3(frame.forward);
   std::size_t i = 0;
   for (int y = rect.y0; y < rect.y1; ++y) {
-    const glm::dvec3 row = glm::dvec3(frame.origin) + (frame.center_y - (y + 0.5)) * frame.up;
     for (int x = rect.x0; x < rect.x1; ++x, ++i) {
-      const glm::dvec3 start = row + ((x + 0.5) - frame.center_x) * frame.right;
+      const glm::dvec2 offset = place(x, y);
+      const glm::dvec3 row =
+          glm::dvec3(frame.origin) + (frame.center_y - (y + offset.y)) * frame.up;
+      const glm::dvec3 start = row + ((x + offset.x) - frame.center_x) * frame.right;
       rays[i] = scene::Ray{.origin = glm::vec3(start), .direction = direction};
     }
   }
+}
+
+template <class Place>
+void make_rays(const CameraFrame& frame, const PixelRect& rect, const Place& place,
+               std::span<scene::Ray> rays) {
+  if (frame.orthographic) return orthographic_rays(frame, rect, place, rays);
+  perspective_rays(frame, rect, place, rays);
 }
 
 }  // namespace
@@ -93,8 +118,13 @@ CameraFrame make_camera_frame(const scene::Camera& camera, int width, int height
 }
 
 void camera_rays(const CameraFrame& frame, const PixelRect& rect, std::span<scene::Ray> rays) {
-  if (frame.orthographic) return orthographic_rays(frame, rect, rays);
-  perspective_rays(frame, rect, rays);
+  make_rays(frame, rect, Centre{}, rays);
+}
+
+void camera_rays(const CameraFrame& frame, const PixelRect& rect, const CameraSample& sample,
+                 std::span<scene::Ray> rays) {
+  if (sample.samples <= 1) return make_rays(frame, rect, Centre{}, rays);
+  make_rays(frame, rect, Sampled{sample}, rays);
 }
 
 }  // namespace encore::renderer

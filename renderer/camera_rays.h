@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace encore::renderer {
@@ -54,5 +55,17 @@ CameraFrame make_camera_frame(const scene::Camera& camera, int width, int height
 /// Directions have unit length, t runs over (0, inf). A ray depends on its pixel alone, not on the
 /// rectangle it was asked for in.
 void camera_rays(const CameraFrame& frame, const PixelRect& rect, std::span<scene::Ray> rays);
+
+/// One of several rays a pixel (paths/sample_pattern.h).
+struct CameraSample {
+  std::uint32_t sample = 0;
+  std::uint32_t samples = 1;  ///< of the whole picture
+  std::uint32_t seed = 1;
+};
+
+/// The same rays, but through sample_offset() in each pixel instead of its centre. Where the
+/// picture has one sample a pixel these are the rays above, bit for bit.
+void camera_rays(const CameraFrame& frame, const PixelRect& rect, const CameraSample& sample,
+                 std::span<scene::Ray> rays);
 
 }  // namespace encore::renderer

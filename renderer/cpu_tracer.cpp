@@ -1,7 +1,9 @@
 #include "renderer/cpu_tracer.h"
 
 #include "renderer/camera_rays.h"
+#include "renderer/task_handover.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
@@ -24,6 +26,7 @@ using scene::Ray;
 constexpr int kTileWidth = 16;
 constexpr int kTileHeight = 16;
 constexpr std::size_t kTilePixels = std::size_t{kTileWidth} * kTileHeight;
+static_assert(kTilePixels <= kBatchRays);
 
 /// The rays and hits of one tile; lies on the stack of the thread that works on it.
 struct TileBuffer {
@@ -82,15 +85,48 @@ void CpuTracer::init(const RenderInput& input) {
 
 void CpuTracer::refresh() {
   check_ready();
-  shade_ = choose_shading(shading_needs(*input_.scene, *input_.triangles));
+  const scene::Needs needs = scene::needs_of(*input_.scene, *input_.triangles, rays_);
+  shade_ = choose_shading(shading_needs(needs));
+  paths_.prepare(input_, needs, rays_, threads_);
+  samples_ = static_cast<std::uint32_t>(rays_.samples);
 }
 
-void CpuTracer::render(const scene::Camera& camera, Image& image) {
+CameraFrame CpuTracer::frame_for(const scene::Camera& camera, const Image& image) const {
   check_ready();
   const CameraFrame frame = make_camera_frame(camera, image.width, image.height);
   if (image.pixels.size() != PixelRect{0, 0, image.width, image.height}.count()) {
     throw std::invalid_argument("the image holds more or fewer pixels than its size says");
   }
+  return frame;
+}
+
+void CpuTracer::render(const scene::Camera& camera, Image& image) {
+  const CameraFrame frame = frame_for(camera, image);
+  if (paths_.needed()) return trace_paths(frame, {.first = 0, .count = samples_}, image);
+  cast(frame, image);
+}
+
+void CpuTracer::draw(const scene::Camera& camera, int width, int height) {
+  picture_.resize(width, height);
+  render(camera, picture_);
+}
+
+void CpuTracer::draw_samples(const scene::Camera& camera, int width, int height,
+                             std::uint32_t first, std::uint32_t count) {
+  check_ready();
+  if (count == 0 || first >= samples_ || count > samples_ - first) {
+    throw std::invalid_argument(fmt::format(
+        "samples {} to {} of a picture that has {} a pixel were asked for; ask for at least one "
+        "of those, counted from 0",
+        first, static_cast<std::uint64_t>(first) + count - (count > 0 ? 1 : 0), samples_));
+  }
+  picture_.resize(width, height);
+  const CameraFrame frame = frame_for(camera, picture_);
+  if (paths_.needed()) return trace_paths(frame, {.first = first, .count = count}, picture_);
+  cast(frame, picture_);
+}
+
+void CpuTracer::cast(const CameraFrame& frame, Image& image) {
   const ShadingScene shading{input_.scene, input_.triangles};
   for_each_tile(image.width, image.height, [&](const PixelRect& tile) {
     TileBuffer buffer(frame, tile);
@@ -104,11 +140,25 @@ void CpuTracer::render(const scene::Camera& camera, Image& image) {
              {&image.pixels[pixel_index(tile.x0, y, image.width)], columns});
     }
   });
+  figures_.emplace();
+  (*figures_)[scene::RayKind::camera].rays =
+      image.pixels.size() - left_out_.load(std::memory_order_relaxed);
 }
 
-void CpuTracer::draw(const scene::Camera& camera, int width, int height) {
-  picture_.resize(width, height);
-  render(camera, picture_);
+void CpuTracer::trace_paths(const CameraFrame& frame, const SampleRange& samples, Image& image) {
+  paths_.begin_picture();
+  for_each_tile(image.width, image.height, [&](const PixelRect& tile) {
+    const int worker = arena_ ? tbb::this_task_arena::current_thread_index() : 0;
+    std::array<glm::vec3, kTilePixels> color_store;
+    const auto colors = std::span(color_store).first(tile.count());
+    if (paths_.draw_tile(frame, tile, samples, worker, cancel_, colors)) {
+      store_tile<glm::vec3>(tile, colors, image.width, image.pixels);
+    } else {
+      complete_.store(false, std::memory_order_relaxed);
+    }
+  });
+  hits_.store(paths_.camera_hits(), std::memory_order_relaxed);
+  figures_ = paths_.figures();
 }
 
 void CpuTracer::trace_rays(std::span<const Ray> rays, std::span<Hit> hits) {
@@ -155,14 +205,17 @@ void CpuTracer::for_each_tile(int width, int height, const TileWork& work) {
   const int rows = (height + kTileHeight - 1) / kTileHeight;
   hits_.store(0, std::memory_order_relaxed);
   complete_.store(true, std::memory_order_relaxed);
+  left_out_.store(0, std::memory_order_relaxed);
   const auto run_tile = [&](int index) {
-    if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) {
-      complete_.store(false, std::memory_order_relaxed);
-      return;
-    }
     const int x = index % columns * kTileWidth;
     const int y = index / columns * kTileHeight;
-    work(PixelRect{x, y, std::min(x + kTileWidth, width), std::min(y + kTileHeight, height)});
+    const PixelRect tile{x, y, std::min(x + kTileWidth, width), std::min(y + kTileHeight, height)};
+    if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) {
+      complete_.store(false, std::memory_order_relaxed);
+      left_out_.fetch_add(tile.count(), std::memory_order_relaxed);
+      return;
+    }
+    work(tile);
   };
 
   if (!arena_) {
@@ -170,14 +223,21 @@ void CpuTracer::for_each_tile(int width, int height, const TileWork& work) {
     return;
   }
   // One tile a task: tiles differ a hundredfold in cost, and a task costs far less than a tile.
+  TaskHandover handover;
+  const auto run_tiles = [&](const tbb::blocked_range<int>& range) {
+    handover.begin();
+    for (int index = range.begin(); index < range.end(); ++index) run_tile(index);
+    handover.end();
+  };
+  handover.before_all();
   arena_->execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, columns * rows, 1),
-        [&](const tbb::blocked_range<int>& range) {
-          for (int index = range.begin(); index < range.end(); ++index) run_tile(index);
-        },
+        [&run_tiles](const tbb::blocked_range<int>& range)
+            ENCORE_NOT_THREAD_SANITIZED { run_tiles(range); },
         tbb::simple_partitioner());
   });
+  handover.after_all();
 }
 
 void CpuTracer::check_ready() const {

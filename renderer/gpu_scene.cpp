@@ -1,8 +1,11 @@
 #include "renderer/gpu_scene.h"
 
+#include "renderer/texture_lookup.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/path_types.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -12,12 +15,21 @@ namespace encore::renderer {
 
 namespace {
 
-gpu::Material to_gpu(const scene::Material& material) {
+gpu::Material to_gpu(const scene::Material& material, std::uint32_t texture) {
   return {.diffuse = material.diffuse,
           .shininess = std::max(0.0F, material.shininess),
           .specular = material.specular,
-          .reserved0 = 0,
+          .texture = texture,
           .glow = material.emission + kAmbientLight * material.ambient,
+          .reserved1 = 0};
+}
+
+gpu::Bounce bounce_of(const scene::Material& material) {
+  return {.specular = material.specular,
+          .reflectivity = material.reflectivity,
+          .opacity = material.opacity,
+          .index_of_refraction = material.index_of_refraction,
+          .reserved0 = 0,
           .reserved1 = 0};
 }
 
@@ -37,6 +49,26 @@ void send_range(gl::Buffer& buffer, const std::vector<T>& values, const scene::T
   const auto bytes = std::as_bytes(std::span(values).subspan(range.first, range.count));
   buffer.write(bytes, range.first * sizeof(T));
   sum.uploaded_bytes += bytes.size();
+}
+
+using Textures = std::vector<std::shared_ptr<const scene::Texture>>;
+
+/// Each texture that a material wears, once.
+Textures worn_textures(const scene::Scene& scene) {
+  Textures worn;
+  for (const scene::Material& material : scene.materials) {
+    const auto& texture = material.diffuse_texture;
+    if (texture != nullptr && std::find(worn.begin(), worn.end(), texture) == worn.end()) {
+      worn.push_back(texture);
+    }
+  }
+  return worn;
+}
+
+std::uint32_t number_of(const Textures& textures, const scene::Material& material) {
+  const auto found = std::find(textures.begin(), textures.end(), material.diffuse_texture);
+  return found == textures.end() ? ENCORE_NO_TEXTURE
+                                 : static_cast<std::uint32_t>(found - textures.begin());
 }
 
 std::string buffer_name(int binding, std::string_view structure) {
@@ -69,6 +101,7 @@ Transfer GpuScene::upload_all(const RenderInput& input) {
   topology_version_.reset();
   structure_version_.reset();
   structure_buffers_.clear();
+  textures_.clear();
   return upload();
 }
 
@@ -78,6 +111,7 @@ Transfer GpuScene::upload_changes() {
     context_->make_current();
     return upload();
   }
+  rays_ = wanted_rays_;
   Transfer nothing;
   if (context_->capabilities().timestamp_bits > 0) nothing.device_s = 0.0;
   return nothing;
@@ -87,13 +121,16 @@ bool GpuScene::changed() const {
   const scene::TriangleList& list = *input_.triangles;
   return scene_version_ != input_.scene->version() || triangle_version_ != list.version ||
          topology_version_ != list.topology_version ||
-         needs_ != shading_needs(*input_.scene, list) ||
+         needs_ != scene::needs_of(*input_.scene, list, wanted_rays_) ||
          (with_structure_ && structure_version_ != input_.structure->version());
 }
 
 Transfer GpuScene::upload() {
   const scene::TriangleList& list = *input_.triangles;
-  const ShadingNeeds before = std::exchange(needs_, shading_needs(*input_.scene, list));
+  const scene::Needs before =
+      std::exchange(needs_, scene::needs_of(*input_.scene, list, wanted_rays_));
+  shading_ = shading_needs(needs_);
+  rays_ = wanted_rays_;
 
   Transfer sum;
   timer_.begin();
@@ -104,11 +141,16 @@ Transfer GpuScene::upload() {
     const auto version = std::exchange(topology_version_, std::nullopt);
     if (needs_.normals && !before.normals) send(normals_, bytes_of(list.normals), sum);
     if (needs_.colors && !before.colors) send(colors_, bytes_of(list.colors), sum);
+    if (needs_.textures && !before.textures) send(texcoords_, bytes_of(list.texcoords), sum);
     topology_version_ = version;
     if (triangle_version_ != list.version) send_ranges(sum);
   }
   if (with_structure_ && structure_version_ != input_.structure->version()) send_structure(sum);
-  if (scene_version_ != input_.scene->version()) send_materials(sum);
+  const bool bounces = needs_.reflections || needs_.refractions;
+  if (scene_version_ != input_.scene->version() || needs_.textures != before.textures ||
+      (bounces && !(before.reflections || before.refractions))) {
+    send_materials(sum);
+  }
   timer_.end();
   gl::finish("sending the scene to the device");
   sum.device_s = timer_.seconds();
@@ -128,6 +170,7 @@ void GpuScene::send_triangles(Transfer& sum) {
   send(triangles_, bytes_of(list.triangles), sum);
   if (needs_.normals) send(normals_, bytes_of(list.normals), sum);
   if (needs_.colors) send(colors_, bytes_of(list.colors), sum);
+  if (needs_.textures) send(texcoords_, bytes_of(list.texcoords), sum);
   triangle_count_ = static_cast<std::uint32_t>(list.triangles.size());
   triangle_version_ = list.version;
   topology_version_ = list.topology_version;
@@ -139,6 +182,7 @@ void GpuScene::send_ranges(Transfer& sum) {
     send_range(triangles_, list.triangles, range, sum);
     if (needs_.normals) send_range(normals_, list.normals, range, sum);
     if (needs_.colors) send_range(colors_, list.colors, range, sum);
+    if (needs_.textures) send_range(texcoords_, list.texcoords, range, sum);
   }
   triangle_version_ = list.version;
 }
@@ -165,17 +209,25 @@ void GpuScene::send_structure(Transfer& sum) {
 void GpuScene::send_materials(Transfer& sum) {
   const scene::Scene& scene = *input_.scene;
   scene_version_.reset();
+  if (needs_.textures) send_textures(sum);
+  const Textures& textures = needs_.textures ? textures_ : Textures{};
   std::vector<gpu::Material> materials;
+  std::vector<gpu::Bounce> bounces;
   materials.reserve(scene.materials.size() + 1);
-  for (const scene::Material& material : scene.materials) materials.push_back(to_gpu(material));
+  const auto add = [&](const scene::Material& material) {
+    materials.push_back(to_gpu(material, number_of(textures, material)));
+    if (needs_.reflections || needs_.refractions) bounces.push_back(bounce_of(material));
+  };
+  for (const scene::Material& material : scene.materials) add(material);
   // Triangles whose material does not exist take the last one.
-  materials.push_back(to_gpu(scene::Material{}));
+  add(scene::Material{});
   std::vector<gpu::Light> lights;
   lights.reserve(scene.lights.size());
   for (const scene::Light& light : scene.lights) lights.push_back(to_gpu(light));
 
   const std::uint64_t before = sum.uploaded_bytes;
   send(materials_, bytes_of(materials), sum);
+  if (!bounces.empty()) send(bounces_, bytes_of(bounces), sum);
   send(lights_, bytes_of(lights), sum);
   sum.converted_bytes += sum.uploaded_bytes - before;
   material_count_ = static_cast<std::uint32_t>(materials.size());
@@ -183,15 +235,53 @@ void GpuScene::send_materials(Transfer& sum) {
   scene_version_ = scene.version();
 }
 
+void GpuScene::send_textures(Transfer& sum) {
+  Textures worn = worn_textures(*input_.scene);
+  if (worn == textures_) return;
+  textures_.clear();  // the copies are of no use if they do not all fit
+  constexpr std::uint64_t kTableWords = 256;
+  constexpr std::uint64_t kHeaderWords = 4;
+  std::vector<std::uint32_t> head;
+  for (std::uint32_t value = 0; value < kTableWords; ++value) {
+    head.push_back(std::bit_cast<std::uint32_t>(linear_of_srgb(value)));
+  }
+  std::uint64_t first = kTableWords + kHeaderWords * worn.size();
+  for (const auto& texture : worn) {
+    head.insert(head.end(),
+                {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(texture->width),
+                 static_cast<std::uint32_t>(texture->height), 0U});
+    first += texture->texels.size();
+  }
+  texels_.reserve(first * sizeof(std::uint32_t), context_->capabilities().storage_block_bytes);
+  std::uint64_t place = 0;
+  const auto append = [&](const std::vector<std::uint32_t>& words) {
+    texels_.write(bytes_of(words), place);
+    place += words.size() * sizeof(std::uint32_t);
+  };
+  append(head);
+  sum.converted_bytes += place;
+  for (const auto& texture : worn) append(texture->texels);
+  sum.uploaded_bytes += place;
+  textures_ = std::move(worn);
+}
+
 void GpuScene::bind() const {
   triangles_.bind_storage(ENCORE_BINDING_TRIANGLES);
   if (needs_.normals) normals_.bind_storage(ENCORE_BINDING_NORMALS);
   if (needs_.colors) colors_.bind_storage(ENCORE_BINDING_COLORS);
+  if (needs_.textures) {
+    texcoords_.bind_storage(ENCORE_BINDING_TEXCOORDS);
+    texels_.bind_storage(ENCORE_BINDING_TEXTURES);
+  }
   materials_.bind_storage(ENCORE_BINDING_MATERIALS);
   lights_.bind_storage(ENCORE_BINDING_LIGHTS);
   if (!with_structure_) return;
   for (const StructureBuffer& part : structure_buffers_) part.buffer.bind_storage(part.binding);
   structure_block_.bind_uniform(ENCORE_BINDING_STRUCTURE);
+}
+
+void GpuScene::bind_bounces() const {
+  bounces_.bind_storage(ENCORE_BINDING_BOUNCES);
 }
 
 gl::Buffer* GpuScene::nodes() {

@@ -25,18 +25,27 @@ class GpuScene {
   /// Sends everything, and returns when the device has it. Throws std::invalid_argument if a part
   /// of the input is missing, GlError if something does not fit on the device.
   Transfer upload_all(const RenderInput& input);
-  /// Sends what changed since: ranges of triangles with their normals and colours, the structure if
-  /// it was built or updated, materials and lights if the scene was edited. Sizes are those of what
+  /// Sends what changed since: ranges of triangles with their normals, colours and texture
+  /// coordinates, the structure if it was built or updated, materials and lights if the scene was
+  /// edited, textures if others are worn. Sizes are those of what
   /// lies in storage buffers; parameters of a few bytes are not counted. Throws std::logic_error
   /// before upload_all().
   Transfer upload_changes();
 
+  /// Which rays are going to be traced: what they need is sent from the next upload on.
+  void set_rays(const scene::RaySettings& rays) { wanted_rays_ = rays; }
+
   /// Binds every buffer where the shaders look for it.
   void bind() const;
+  /// What materials mirror and let through, which shares its place with others.
+  void bind_bounces() const;
 
   [[nodiscard]] const RenderInput& input() const { return input_; }
-  /// Which features of shading the scene's shaders must have.
-  [[nodiscard]] const ShadingNeeds& needs() const { return needs_; }
+  /// What the last upload was for: the rays, what the scene needs for them, and which features of
+  /// shading its shaders must have.
+  [[nodiscard]] const scene::RaySettings& rays() const { return rays_; }
+  [[nodiscard]] const scene::Needs& needs() const { return needs_; }
+  [[nodiscard]] const ShadingNeeds& shading() const { return shading_; }
   [[nodiscard]] std::uint32_t triangle_count() const { return triangle_count_; }
   [[nodiscard]] std::uint32_t light_count() const { return light_count_; }
   /// One more than the scene's: the last is that of triangles whose material does not exist.
@@ -63,11 +72,15 @@ class GpuScene {
   void send_ranges(Transfer& sum);
   void send_structure(Transfer& sum);
   void send_materials(Transfer& sum);
+  void send_textures(Transfer& sum);
 
   std::shared_ptr<gl::Context> context_;
   bool with_structure_;
   RenderInput input_;
-  ShadingNeeds needs_;
+  scene::RaySettings wanted_rays_;
+  scene::RaySettings rays_;
+  scene::Needs needs_;
+  ShadingNeeds shading_;
   gpu::StructureParameters structure_{};
   std::uint32_t triangle_count_ = 0;
   std::uint32_t light_count_ = 0;
@@ -76,13 +89,17 @@ class GpuScene {
   gl::Buffer triangles_{"the triangles"};
   gl::Buffer normals_{"the shading normals"};
   gl::Buffer colors_{"the vertex colours"};
+  gl::Buffer texcoords_{"the texture coordinates"};
   gl::Buffer materials_{"the materials"};
+  gl::Buffer bounces_{"what materials mirror and let through"};
+  gl::Buffer texels_{"the textures"};
   gl::Buffer lights_{"the lights"};
   gl::Buffer structure_block_{"the structure's parameters"};
   std::vector<StructureBuffer> structure_buffers_;
   gl::Timer timer_;
 
   // What the copies were made of; empty: there are none.
+  std::vector<std::shared_ptr<const scene::Texture>> textures_;
   std::optional<std::uint64_t> scene_version_;
   std::optional<std::uint64_t> triangle_version_;
   std::optional<std::uint64_t> topology_version_;

@@ -47,16 +47,8 @@ gpu::CameraParameters to_gpu(const CameraFrame& frame) {
   return camera;
 }
 
-GLuint groups(int pixels, int group) {
-  return static_cast<GLuint>((pixels + group - 1) / group);
-}
-
-void dispatch(const gl::Program& program, const PixelRect& piece) {
-  program.use();
-  program.set("first_pixel", piece.x0, piece.y0);
-  program.set("last_pixel", piece.x1, piece.y1);
-  glDispatchCompute(groups(piece.width(), kTraceGroupWidth),
-                    groups(piece.height(), kTraceGroupHeight), 1);
+std::uint32_t groups(int pixels, int group) {
+  return static_cast<std::uint32_t>((pixels + group - 1) / group);
 }
 
 void check_size(const gl::Capabilities& device, int width, int height) {
@@ -73,6 +65,27 @@ void check_size(const gl::Capabilities& device, int width, int height) {
   }
 }
 
+void check_samples(std::uint32_t first, std::uint32_t count, std::uint32_t samples) {
+  if (count > 0 && first < samples && count <= samples - first) return;
+  throw std::invalid_argument(std::to_string(count) + " samples from number " +
+                              std::to_string(first) + " on were asked for of a picture that has " +
+                              std::to_string(samples) +
+                              " a pixel; ask for at least one of those, counted from 0");
+}
+
+/// Storage buffers that the largest program sees at once where surfaces wear textures, and where
+/// they are bound; without textures require_compute() has asked for enough.
+void check_textures_fit(const gl::Capabilities& device) {
+  const int blocks = device.software ? 13 : 11;
+  constexpr int kBindings = ENCORE_BINDING_TEXTURES + 1;
+  if (device.compute_storage_blocks >= blocks && device.storage_bindings >= kBindings) return;
+  throw gl::GlError("textures take " + std::to_string(blocks) + " storage buffers at " +
+                    std::to_string(kBindings) + " binding points; " + device.device_name() +
+                    " offers " + std::to_string(device.compute_storage_blocks) + " at " +
+                    std::to_string(device.storage_bindings) +
+                    "; draw without textures or use --device cpu");
+}
+
 /// Rows of a part of the results: whole rows of work groups, where there is room for one.
 int rows_of_band(int width, std::size_t bytes_per_ray) {
   const std::size_t row_bytes = static_cast<std::size_t>(width) * bytes_per_ray;
@@ -86,6 +99,8 @@ int rows_of_band(int width, std::size_t bytes_per_ray) {
 GpuTracer::GpuTracer(std::shared_ptr<gl::Context> context)
     : context_(gl::made_current(std::move(context))),
       scene_(context_, true),
+      launch_(context_),
+      paths_(context_, scene_, launch_),
       timer_(context_->capabilities().timestamp_bits) {}
 
 GpuTracer::~GpuTracer() {
@@ -115,7 +130,7 @@ void GpuTracer::init(const RenderInput& input) {
   doing_ = "tracing rays through " + name;
   transfer_ = scene_.upload_all(input);
   kind_ = kind;
-  prepare_picture_program();
+  prepare_to_draw();
 }
 
 void GpuTracer::refresh() {
@@ -123,27 +138,21 @@ void GpuTracer::refresh() {
   ready_ = false;
   context_->make_current();
   transfer_ = scene_.upload_changes();
-  prepare_picture_program();
+  prepare_to_draw();
 }
 
-void GpuTracer::prepare_picture_program() {
-  picture_program_ = program(TraceOutput::picture, false);
+void GpuTracer::prepare_to_draw() {
+  if (scene_.needs().textures) check_textures_fit(context_->capabilities());
+  launch_.set_scene({.kind = *kind_,
+                     .depth = scene_.structure().depth,
+                     .needs = scene_.shading(),
+                     .lights = scene_.light_count() > 0,
+                     .intersection = scene_.input().structure->intersection()});
+  picture_program_.reset();
+  paths_.prepare();
+  if (!scene_.needs().paths()) picture_program_ = launch_.program(TraceOutput::picture);
   context_->check("preparing to draw");
   ready_ = true;
-}
-
-TraceVariant GpuTracer::variant(TraceOutput output, bool resumable) const {
-  return {.kind = *kind_,
-          .depth = scene_.structure().depth,
-          .output = output,
-          .needs = scene_.needs(),
-          .lights = scene_.light_count() > 0,
-          .pause_after = context_->capabilities().software ? PausedRays::kPauseAfter : 0,
-          .resumable = resumable};
-}
-
-std::shared_ptr<gl::Program> GpuTracer::program(TraceOutput output, bool resumable) const {
-  return context_->programs().compute("trace.comp", trace_defines(variant(output, resumable)));
 }
 
 void GpuTracer::check_ready() const {
@@ -151,14 +160,8 @@ void GpuTracer::check_ready() const {
   if (!ready_) throw std::logic_error("the last refresh of the GPU tracer failed");
 }
 
-std::uint64_t GpuTracer::pace_key(const gl::Program& program, int width, int height) const {
-  constexpr std::uint64_t kFactor = 0x100000001B3;  // mixes as the FNV hash does
-  std::uint64_t key = scenes_;
-  for (const std::uint64_t part : {std::uint64_t{program.id()}, static_cast<std::uint64_t>(width),
-                                   static_cast<std::uint64_t>(height)}) {
-    key = (key ^ part) * kFactor;
-  }
-  return key;
+std::uint64_t GpuTracer::pace_key(int height) const {
+  return launch_.pace_key((std::uint64_t{scenes_} << 32U) | static_cast<std::uint32_t>(height));
 }
 
 /// Everything that rays of the camera need; says what is wrong before anything else is done.
@@ -175,46 +178,47 @@ void GpuTracer::send_camera(const scene::Camera& camera, int width, int height) 
   camera_.bind_uniform(ENCORE_BINDING_CAMERA);
 }
 
-void GpuTracer::set_launch(const gl::Program& program) const {
-  program.set("width", launch_.width);
-  program.set("first_index", launch_.first_index);
-  program.set("ray_count", launch_.ray_count);
-}
-
-void GpuTracer::send_piece(const gl::Program& program, const PixelRect& piece) {
-  const TraceVariant used = variant(launch_.output, false);
-  if (used.pause_after == 0) return dispatch(program, piece);
-  const auto resumable = [this]() -> const gl::Program& {
-    // The context's cache keeps it.
-    const gl::Program& again = *this->program(launch_.output, true);
-    set_launch(again);
-    return again;
-  };
-  paused_.run({&program, resumable}, piece, launch_.width, paused_ray_words(used),
-              context_->capabilities().storage_block_bytes, dispatch);
-}
-
 void GpuTracer::draw(const scene::Camera& camera, int width, int height) {
+  draw_samples(camera, width, height, 0, static_cast<std::uint32_t>(scene_.rays().samples));
+}
+
+void GpuTracer::draw_samples(const scene::Camera& camera, int width, int height,
+                             std::uint32_t first, std::uint32_t count) {
   send_camera(camera, width, height);
+  check_samples(first, count, static_cast<std::uint32_t>(scene_.rays().samples));
   picture_.resize(width, height, context_->capabilities().texture_size);
-  const gl::Program& program = *picture_program_;
-  launch_ = {.output = TraceOutput::picture, .width = width};
-  set_launch(program);
   scene_.bind();
   picture_.bind();
+  rays_drawn_.reset();
   timer_.begin();
+  if (scene_.needs().paths()) {
+    complete_ = paths_.draw({width, height, first, count}, scenes_, doing_);
+    timer_.end();
+    gl::finish(doing_);
+    rays_drawn_ = paths_.figures();
+  } else {
+    draw_plain(width, height);
+  }
+  draw_s_ = complete_ ? timer_.seconds() : std::nullopt;
+  if (picture_program_ && complete_) {
+    rays_drawn_.emplace();
+    (*rays_drawn_)[scene::RayKind::camera] = {PixelRect{0, 0, width, height}.count(), draw_s_};
+  }
+  // Whoever shows or fetches the picture sees all of it.
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+  context_->check(doing_);
+}
+
+void GpuTracer::draw_plain(int width, int height) {
+  launch_.begin({.output = TraceOutput::picture, .width = width}, picture_program_);
   frames_.run(
-      pace_key(program, width, height), width, height,
+      pace_key(height), width, height,
       [&](const PixelRect& piece) {
-        send_piece(program, piece);
+        launch_.send(piece);
         if (piece.y1 == height) timer_.end();
       },
       doing_);
   complete_ = frames_.complete();
-  draw_s_ = complete_ ? timer_.seconds() : std::nullopt;
-  // Whoever shows or fetches the picture sees all of it.
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
-  context_->check(doing_);
 }
 
 void GpuTracer::read(Image& image) {
@@ -259,7 +263,7 @@ void GpuTracer::trace_bands(TraceOutput output, int width, int height,
       output == TraceOutput::counters ? ENCORE_BINDING_COUNTERS : ENCORE_BINDING_HITS;
   const std::size_t rays = PixelRect{0, 0, width, height}.count();
   const std::size_t bytes_per_ray = results.size() / rays;
-  const auto used = program(output, false);
+  const auto used = launch_.program(output);
   const int band_rows = std::min(rows_of_band(width, bytes_per_ray), height);
   const std::size_t band_bytes = PixelRect{0, 0, width, band_rows}.count() * bytes_per_ray;
   scene_.bind();
@@ -267,12 +271,11 @@ void GpuTracer::trace_bands(TraceOutput output, int width, int height,
   results_.bind_storage(binding);
   complete_ = true;
   for (int y = 0; y < height && complete_; y += band_rows) {
-    launch_ = {.output = output, .width = width, .first_index = y * width};
-    set_launch(*used);
+    launch_.begin({.output = output, .width = width, .first_index = y * width}, used);
     batches_.run(
-        pace_key(*used, width, height), width, std::min(band_rows, height - y),
+        pace_key(height), width, std::min(band_rows, height - y),
         [&](const PixelRect& piece) {
-          send_piece(*used, {piece.x0, piece.y0 + y, piece.x1, piece.y1 + y});
+          launch_.send({piece.x0, piece.y0 + y, piece.x1, piece.y1 + y});
         },
         doing_);
     complete_ = batches_.complete();
@@ -304,7 +307,7 @@ void GpuTracer::trace_rays(std::span<const scene::Ray> rays, std::span<scene::Hi
   }
   if (rays.empty()) return;
   context_->make_current();
-  const auto used = program(TraceOutput::ray_hits, false);
+  const auto used = launch_.program(TraceOutput::ray_hits);
   const std::uint64_t most = context_->capabilities().storage_block_bytes;
   const std::size_t most_rays = std::min(rays.size(), kRaysPerBatch);
   const int width = static_cast<int>(std::min<std::size_t>(rays.size(), kRaysPerRow));
@@ -317,13 +320,12 @@ void GpuTracer::trace_rays(std::span<const scene::Ray> rays, std::span<scene::Hi
   for (std::size_t first = 0; first < rays.size() && complete_; first += kRaysPerBatch) {
     const std::size_t count = std::min(kRaysPerBatch, rays.size() - first);
     rays_.write(std::as_bytes(rays.subspan(first, count)));
-    launch_ = {
-        .output = TraceOutput::ray_hits, .width = width, .ray_count = static_cast<int>(count)};
-    set_launch(*used);
+    launch_.begin(
+        {.output = TraceOutput::ray_hits, .width = width, .ray_count = static_cast<int>(count)},
+        used);
     const int rows = (static_cast<int>(count) + width - 1) / width;
     batches_.run(
-        pace_key(*used, width, 0), width, rows,
-        [&](const PixelRect& piece) { send_piece(*used, piece); }, doing_);
+        pace_key(0), width, rows, [&](const PixelRect& piece) { launch_.send(piece); }, doing_);
     complete_ = batches_.complete();
     results_.read(std::as_writable_bytes(hits.subspan(first, count)));
   }
@@ -333,6 +335,7 @@ void GpuTracer::trace_rays(std::span<const scene::Ray> rays, std::span<scene::Hi
 void GpuTracer::set_cancel_flag(const std::atomic<bool>* flag) {
   frames_.set_cancel_flag(flag);
   batches_.set_cancel_flag(flag);
+  paths_.set_cancel_flag(flag);
 }
 
 bool GpuTracer::complete() const {

@@ -3,13 +3,13 @@
 #include "accel/settings.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/fence.h"
+#include "renderer/gpu_paths.h"
 #include "renderer/gpu_refit.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/paced_dispatch.h"
-#include "renderer/paused_rays.h"
 #include "renderer/picture.h"
 #include "renderer/renderer.h"
-#include "renderer/trace_defines.h"
+#include "renderer/trace_launch.h"
 
 #include <atomic>
 #include <cstdint>
@@ -26,8 +26,9 @@ namespace encore::renderer {
 /// (shaders/triangle_hit.glsl), and have no limit on steps or depth.
 ///
 /// What a scene or run does not use is left out of the shader by defines: other structures,
-/// counters, interpolated normals, colours, highlights, lights, rays from a buffer. Long frames go
-/// to the device in pieces that each stay far below a driver's patience (see PacedDispatch).
+/// counters, interpolated normals, colours, textures, highlights, lights, rays from a buffer; what
+/// takes more than one ray a pixel is drawn by GpuPaths, and is not there for others. Long frames
+/// go to the device in pieces that each stay far below a driver's patience (see PacedDispatch).
 ///
 /// Between the fences at the end of a refresh and of a frame the host never waits for the device,
 /// but for software ones (see PausedRays).
@@ -39,13 +40,18 @@ class GpuTracer final : public Tracer {
   /// Sends the scene and compiles. Throws std::invalid_argument if a part of the input is missing
   /// or the structure has no GPU traversal (brute), GlError if something does not fit.
   void init(const RenderInput& input) override;
+  void set_rays(const scene::RaySettings& rays) override { scene_.set_rays(rays); }
   void refresh() override;
   void draw(const scene::Camera& camera, int width, int height) override;
+  void draw_samples(const scene::Camera& camera, int width, int height, std::uint32_t first,
+                    std::uint32_t count) override;
   void read(Image& image) override;
 
   [[nodiscard]] bool transfers() const override { return true; }
   [[nodiscard]] Transfer last_transfer() const override { return transfer_; }
   [[nodiscard]] std::optional<double> last_draw_s() const override { return draw_s_; }
+  /// Seconds are the device's, of one kind of ray after the other.
+  [[nodiscard]] std::optional<RayFigures> last_rays() const override { return rays_drawn_; }
   [[nodiscard]] std::string device_name() const override;
 
   /// Bounding volume hierarchies only.
@@ -67,36 +73,26 @@ class GpuTracer final : public Tracer {
   [[nodiscard]] bool complete() const override;
 
  private:
-  /// What is traced at present: the uniforms of its programs that stay from piece to piece.
-  struct Launch {
-    TraceOutput output = TraceOutput::picture;
-    int width = 0;        ///< of the picture
-    int first_index = 0;  ///< of the results' buffer
-    int ray_count = 0;    ///< of rays from a buffer
-  };
-  [[nodiscard]] std::shared_ptr<gl::Program> program(TraceOutput output, bool resumable) const;
-  [[nodiscard]] TraceVariant variant(TraceOutput output, bool resumable) const;
   [[nodiscard]] const accel::Bvh* hierarchy() const;
-  [[nodiscard]] std::uint64_t pace_key(const gl::Program& program, int width, int height) const;
+  [[nodiscard]] std::uint64_t pace_key(int height) const;
   void check_ready() const;
-  void prepare_picture_program();
+  void prepare_to_draw();
   void send_camera(const scene::Camera& camera, int width, int height);
-  void set_launch(const gl::Program& program) const;
-  void send_piece(const gl::Program& program, const PixelRect& piece);
+  void draw_plain(int width, int height);
   void trace_bands(TraceOutput output, int width, int height, std::span<std::byte> results);
 
   std::shared_ptr<gl::Context> context_;
   GpuScene scene_;
+  TraceLaunch launch_;
+  GpuPaths paths_;
   std::optional<accel::StructureKind> kind_;
-  bool ready_ = false;        ///< whether the device has what the input says
-  std::uint32_t scenes_ = 0;  ///< how many init() has seen
-  std::string doing_;         ///< for messages
-  std::shared_ptr<gl::Program> picture_program_;
-  std::unique_ptr<GpuRefit> refit_;  ///< made when first asked for
-  PacedDispatch frames_;             ///< of pictures
-  PacedDispatch batches_;            ///< of everything else
-  Launch launch_;
-  PausedRays paused_;  ///< software devices only
+  bool ready_ = false;                            ///< whether the device has what the input says
+  std::uint32_t scenes_ = 0;                      ///< how many init() has seen
+  std::string doing_;                             ///< for messages
+  std::shared_ptr<gl::Program> picture_program_;  ///< null: paths_ draws pictures
+  std::unique_ptr<GpuRefit> refit_;               ///< made when first asked for
+  PacedDispatch frames_;                          ///< of pictures
+  PacedDispatch batches_;                         ///< of everything else
   bool complete_ = true;
   Picture picture_;
   gl::Buffer camera_{"the camera"};
@@ -105,6 +101,7 @@ class GpuTracer final : public Tracer {
   gl::Timer timer_;
   Transfer transfer_;
   std::optional<double> draw_s_;
+  std::optional<RayFigures> rays_drawn_;
 };
 
 }  // namespace encore::renderer

@@ -136,7 +136,7 @@ void RasterRenderer::prepare() {
     bounds_version_ = list.version;
   }
   std::vector<std::string> defines;
-  add_shading_defines(scene_.needs(), scene_.light_count() > 0, defines);
+  add_shading_defines(scene_.shading(), scene_.light_count() > 0, defines);
   program_ = context_->programs().graphics("raster.vert", "raster.frag", std::move(defines));
   ready_ = true;
 }

@@ -42,6 +42,10 @@ class RasterRenderer final : public Renderer {
   /// Sends the scene and compiles; `input.structure` is not looked at and may be null. Throws
   /// std::invalid_argument if scene or triangles are missing, GlError if something does not fit.
   void init(const RenderInput& input) override;
+  /// Only whether there are textures.
+  void set_rays(const scene::RaySettings& rays) override {
+    scene_.set_rays({.textures = rays.textures});
+  }
   /// Throws std::logic_error before init(), GlError if something does not fit; then nothing can be
   /// drawn until another refresh() or init() succeeds.
   void refresh() override;

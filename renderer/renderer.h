@@ -5,10 +5,13 @@
 #include "renderer/image.h"
 #include "scene/camera.h"
 #include "scene/ray.h"
+#include "scene/ray_settings.h"
 #include "scene/scene.h"
 #include "scene/triangles.h"
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -33,6 +36,27 @@ struct Transfer {
   std::optional<double> device_s;  ///< by the device's own clock, where it has one
 };
 
+/// What the rays of one picture came to, by their kind.
+struct RayFigures {
+  struct Kind {
+    std::uint64_t rays = 0;
+    /// Time that making and tracing them and shading what they hit took, summed over all workers
+    /// (CPU), or of the device (GPU). Only shares of the sum over all kinds mean anything beside
+    /// the picture's own time. Nothing where it was not told apart.
+    std::optional<double> seconds{};
+  };
+  std::array<Kind, scene::kRayKinds> kinds{};
+
+  Kind& operator[](scene::RayKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+  const Kind& operator[](scene::RayKind kind) const {
+    return kinds[static_cast<std::size_t>(kind)];
+  }
+  /// All rays of all kinds.
+  [[nodiscard]] std::uint64_t rays() const;
+  /// Share of the picture's time that a kind took, in [0, 1]; nothing where it was not told apart.
+  [[nodiscard]] std::optional<double> share(scene::RayKind kind) const;
+};
+
 /// The interface of every renderer (thesis, appendix B): init once a scene and structure, refresh
 /// whenever the triangles or the structure changed, draw as often as wanted.
 class Renderer {
@@ -43,8 +67,19 @@ class Renderer {
   /// Brings device copies up to date after the triangles or structure changed, and returns when the
   /// device has them. CPU: nothing to send.
   virtual void refresh() = 0;
+  /// Which rays pictures are made of from now on. Takes effect with the next init() or refresh(),
+  /// which leave out what these and the scene do not need (scene/needs.h). Renderers that trace no
+  /// rays ignore it.
+  virtual void set_rays(const scene::RaySettings& /*rays*/) {}
   /// Draws a picture of that size and returns when it is complete; it stays on the device.
   virtual void draw(const scene::Camera& camera, int width, int height) = 0;
+  /// Draws only the samples `first` to `first + count - 1` of each pixel, of the samples that
+  /// set_rays() has asked for: the mean of pictures of equal parts is the whole picture. What is
+  /// drawn does not depend on what was drawn before. Renderers that trace no rays draw() instead.
+  virtual void draw_samples(const scene::Camera& camera, int width, int height,
+                            std::uint32_t /*first*/, std::uint32_t /*count*/) {
+    draw(camera, width, height);
+  }
   /// Fetches the last picture drawn; resizes `image`.
   virtual void read(Image& image) = 0;
   /// Draws into `image` at its size. No allocation after the first frame of a size.
@@ -59,6 +94,9 @@ class Renderer {
   [[nodiscard]] virtual bool complete() const { return true; }
   /// Rays of the last picture that hit something, where that is counted on the way.
   [[nodiscard]] virtual std::optional<std::uint64_t> last_hits() const { return std::nullopt; }
+
+  /// Rays of the last picture by kind; nothing where none were traced.
+  [[nodiscard]] virtual std::optional<RayFigures> last_rays() const { return std::nullopt; }
 
   /// Whether the renderer works on copies that refresh() has to send.
   [[nodiscard]] virtual bool transfers() const { return false; }

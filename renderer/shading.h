@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/needs.h"
 #include "scene/ray.h"
 #include "scene/scene.h"
 #include "scene/triangles.h"
@@ -19,12 +20,14 @@ inline constexpr float kAmbientLight = 0.2F;
 struct ShadingNeeds {
   bool normals = false;   ///< interpolate shading normals
   bool colors = false;    ///< interpolate vertex colours
+  bool textures = false;  ///< look textures up
   bool specular = false;  ///< highlights: some material has a specular colour, and there is a light
 
   friend bool operator==(const ShadingNeeds&, const ShadingNeeds&) = default;
 };
 
-ShadingNeeds shading_needs(const scene::Scene& scene, const scene::TriangleList& triangles);
+/// The part of what a scene needs (scene/needs.h) that concerns shading.
+ShadingNeeds shading_needs(const scene::Needs& needs);
 
 /// What shading reads; both stay the caller's.
 struct ShadingScene {
@@ -36,13 +39,14 @@ struct ShadingScene {
 ///
 /// Phong's model (1975) for point lights without falloff and without shadows, as in the thesis:
 ///   emission + kAmbientLight * ambient
-///     + sum over lights of light * (diffuse * vertex colour * N.L + specular * (R.V)^shininess)
+///     + sum over lights of light * (diffuse * vertex colour * texture * N.L
+///                                   + specular * (R.V)^shininess)
 /// with highlights only where N.L > 0. Surfaces are two-sided: the geometric normal is turned
 /// towards the viewer, an interpolated one towards the same side as the geometric one, so that
 /// neither the triangle's winding nor a silhouette flips the light. Where the interpolated normal
 /// is zero the geometric one is used; a light at the very point that it lights adds nothing. A miss
 /// shows the scene's background. Ray directions must have unit length. A triangle whose material
-/// does not exist is shaded as Material{}.
+/// does not exist is shaded as Material{}. Textures: texture_lookup.h.
 ///
 /// Vectors are computed in double: neither large nor tiny scenes overflow, and every machine and
 /// thread gets the same bits.

@@ -59,6 +59,13 @@ void add_output(const TraceVariant& variant, std::vector<std::string>& defines) 
       defines.emplace_back("ENCORE_OUTPUT_HITS");
       defines.emplace_back("ENCORE_RAYS_FROM_BUFFER");
       return;
+    case TraceOutput::path_hits:
+      defines.emplace_back("ENCORE_PATHS");
+      return;
+    case TraceOutput::shadows:
+      defines.emplace_back("ENCORE_PATHS");
+      defines.emplace_back("ENCORE_ANY_HIT");
+      return;
   }
 }
 
@@ -71,7 +78,46 @@ void add_shading_defines(const ShadingNeeds& needs, bool lights,
   defines.emplace_back("ENCORE_LIGHTS");
   if (needs.normals) defines.emplace_back("ENCORE_NORMALS");
   if (needs.colors) defines.emplace_back("ENCORE_COLORS");
+  if (needs.textures) defines.emplace_back("ENCORE_TEXTURES");
   if (needs.specular) defines.emplace_back("ENCORE_SPECULAR");
+}
+
+std::string path_pass_file(PathPass pass) {
+  switch (pass) {
+    case PathPass::start:
+      return "paths_start.comp";
+    case PathPass::light:
+      return "paths_light.comp";
+    case PathPass::scatter:
+      return "paths_scatter.comp";
+    case PathPass::finish:
+      return "paths_finish.comp";
+  }
+  return {};
+}
+
+std::vector<std::string> path_pass_defines(PathPass pass, const scene::Needs& needs) {
+  std::vector<std::string> defines;
+  if (pass == PathPass::start || pass == PathPass::finish) {
+    defines.push_back(define("ENCORE_GROUP_X", kTraceGroupWidth));
+    defines.push_back(define("ENCORE_GROUP_Y", kTraceGroupHeight));
+    if (pass == PathPass::start) {
+      defines.emplace_back("ENCORE_SAMPLES");
+      if (needs.samples) defines.emplace_back("ENCORE_SEVERAL_SAMPLES");
+    }
+    return defines;
+  }
+  defines.push_back(define("ENCORE_GROUP_SIZE", kPathGroup));
+  const bool bounces = needs.reflections || needs.refractions;
+  if (bounces) defines.emplace_back("ENCORE_BOUNCES");
+  if (needs.reflections) defines.emplace_back("ENCORE_REFLECTIONS");
+  if (needs.refractions) defines.emplace_back("ENCORE_REFRACTIONS");
+  const bool lit = needs.lights && (pass == PathPass::light || !needs.shadows);
+  add_shading_defines(shading_needs(needs), lit, defines);
+  // Where rays go on, and on which side of a surface, follows its shading normals.
+  if (!lit && bounces && needs.normals) defines.emplace_back("ENCORE_NORMALS");
+  if (pass == PathPass::light) defines.emplace_back("ENCORE_ONE_LIGHT");
+  return defines;
 }
 
 bool has_gpu_traversal(accel::StructureKind kind) {
@@ -101,6 +147,12 @@ std::uint32_t paused_ray_words(const TraceVariant& variant) {
 std::vector<std::string> trace_defines(const TraceVariant& variant) {
   std::vector<std::string> defines;
   add_structure(variant, defines);
+  if (variant.intersection == accel::IntersectionMode::moller_trumbore) {
+    defines.emplace_back("ENCORE_MOLLER_TRUMBORE");
+  }
+  if (variant.intersection == accel::IntersectionMode::watertight) {
+    defines.emplace_back("ENCORE_WATERTIGHT");
+  }
   add_output(variant, defines);
   if (variant.pause_after > 0) {
     defines.push_back(define("ENCORE_PAUSE_AFTER", variant.pause_after));

@@ -7,9 +7,15 @@ layout(std140, binding = ENCORE_BINDING_CAMERA) uniform CameraBlock {
   CameraParameters camera;
 };
 
+#ifdef ENCORE_SAMPLES
+// Through a place in the pixel: (0, 0) is its upper left corner.
+Ray camera_ray(ivec2 pixel, dvec2 place) {
+#else
 Ray camera_ray(ivec2 pixel) {
-  precise double down = camera.center_y - (double(pixel.y) + 0.5lf);
-  precise double aside = (double(pixel.x) + 0.5lf) - camera.center_x;
+  const dvec2 place = dvec2(0.5lf, 0.5lf);
+#endif
+  precise double down = camera.center_y - (double(pixel.y) + place.y);
+  precise double aside = (double(pixel.x) + place.x) - camera.center_x;
   if (camera.orthographic != 0u) {
     precise dvec3 start_row = dvec3(camera.origin) + down * camera.up;
     precise dvec3 start = start_row + aside * camera.right;

@@ -47,12 +47,13 @@ void enter_cell(uint cell) {
   ENCORE_COUNT_TRIANGLE_TESTS(cell_reference_end - cell_reference);
 }
 
-// Tests what is left of the cell; false if it paused.
-bool finish_cell(Ray ray, vec3 scaled, inout Hit hit) {
+// Tests what is left of the cell, or up to the first hit if any will do; false if it paused.
+bool finish_cell(Ray ray, PreparedRay prepared, inout Hit hit) {
   while (cell_reference < cell_reference_end) {
     ENCORE_PAUSE_IF_SPENT;
     ENCORE_SPEND;
-    test_triangle(ray, scaled, references[cell_reference], hit);
+    test_triangle(ray, prepared, references[cell_reference], hit);
+    ENCORE_END_IF_HIT;
     ++cell_reference;
   }
   return true;

@@ -24,6 +24,9 @@ layout(std430, binding = ENCORE_BINDING_COLORS) readonly restrict buffer Colors 
   float corner_colors[];
 };
 #endif
+#ifdef ENCORE_TEXTURES
+#include "texture_lookup.glsl"
+#endif
 
 // Unit length; the zero vector stays what it is.
 vec3 safe_normalize(vec3 v) {
@@ -40,7 +43,12 @@ vec3 safe_normalize(vec3 v) {
    vec3(corners[9u * hit.triangle + 6u], corners[9u * hit.triangle + 7u],                   \
         corners[9u * hit.triangle + 8u]) * hit.v)
 
-// Colour, linear RGB, of a surface hit by a ray of unit direction.
+#ifdef ENCORE_ONE_LIGHT
+uniform uint light_in_hand;
+#endif
+
+// Colour, linear RGB, of a surface hit by a ray of unit direction; with ENCORE_ONE_LIGHT what one
+// light adds to it.
 vec3 shade(vec3 ray_direction, Hit hit) {
   Triangle triangle = triangles[hit.triangle];
   Material material = materials[min(triangle.material, camera.material_count - 1u)];
@@ -64,7 +72,12 @@ vec3 shade(vec3 ray_direction, Hit hit) {
 
   vec3 diffuse = vec3(0.0);
   vec3 specular = vec3(0.0);
+#ifdef ENCORE_ONE_LIGHT
+  color = vec3(0.0);
+  for (uint i = light_in_hand; i <= light_in_hand; ++i) {
+#else
   for (uint i = 0u; i < camera.light_count; ++i) {
+#endif
     // From the triangle's own corner: exact to its size, however far away the eye is.
     vec3 to_light = (lights[i].position - triangle.v0) - edge1 * hit.u - edge2 * hit.v;
     vec3 direction = safe_normalize(to_light);
@@ -82,6 +95,11 @@ vec3 shade(vec3 ray_direction, Hit hit) {
   vec3 surface = material.diffuse;
 #ifdef ENCORE_COLORS
   surface *= ENCORE_INTERPOLATE(corner_colors, hit);
+#endif
+#ifdef ENCORE_TEXTURES
+  if (material.texture != ENCORE_NO_TEXTURE) {
+    surface *= texture_color(material.texture, interpolated_texcoord(hit));
+  }
 #endif
   color += surface * diffuse;
 #ifdef ENCORE_SPECULAR

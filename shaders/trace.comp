@@ -40,6 +40,14 @@ layout(std430, binding = ENCORE_BINDING_RAYS) readonly restrict buffer Rays {
   Ray rays[];
 };
 uniform int ray_count;
+#elif defined(ENCORE_PATHS)
+#include "paths.glsl"
+#ifdef ENCORE_ANY_HIT
+#include "shadow_rays.glsl"
+#else
+uniform int ray_count;
+uniform int queue_first;  // where the list of these rays' paths begins
+#endif
 #else
 #include "camera_rays.glsl"
 #endif
@@ -123,6 +131,14 @@ void main() {
 #ifdef ENCORE_RAYS_FROM_BUFFER
   if (index >= ray_count) return;
   Ray ray = rays[index];
+#elif defined(ENCORE_PATHS) && !defined(ENCORE_ANY_HIT)
+  if (index >= ray_count) return;
+  uint path = path_queues[queue_first + index];
+  Ray ray = paths[path].ray;
+#elif defined(ENCORE_PATHS)
+  if (uint(index) >= path_queues[ENCORE_QUEUE_SHADOWS]) return;
+  Ray ray = Ray(shadow_rays[index].origin, 0.0, shadow_rays[index].direction,
+                shadow_rays[index].t_max);
 #else
   Ray ray = camera_ray(pixel);
 #endif
@@ -135,6 +151,12 @@ void main() {
 #endif
 #ifdef ENCORE_OUTPUT_HITS
   hits[index - first_index] = hit;
+#endif
+#if defined(ENCORE_PATHS) && !defined(ENCORE_ANY_HIT)
+  paths[path].hit = hit;
+#endif
+#if defined(ENCORE_PATHS) && defined(ENCORE_ANY_HIT)
+  if (hit.triangle == kNoHit) paths[shadow_rays[index].path].color += shadow_rays[index].light;
 #endif
 #ifdef ENCORE_OUTPUT_COUNTERS
   uint place = 3u * uint(index - first_index);

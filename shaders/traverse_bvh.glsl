@@ -21,7 +21,7 @@ void start_traversal(Ray ray) {
 // Goes on from where the traversal stands; true when it is over, false if it paused.
 bool traverse(Ray ray, inout Hit hit) {
   if (structure.references == 0u) return true;
-  vec3 scaled = scaled_to_one(ray.direction);
+  PreparedRay prepared = prepare_ray(ray);
   BoxRay box_ray = make_box_ray(ray);
   for (;;) {
     ENCORE_PAUSE_IF_SPENT;
@@ -33,10 +33,11 @@ bool traverse(Ray ray, inout Hit hit) {
       // Inner node: go on with the child that the ray enters first, let the other one wait.
       ENCORE_COUNT_BOX_TESTS(2u);
       float left_enter, right_enter, leave;
-      bool left = box_stretch(nodes[first].min, nodes[first].max, box_ray, ray.t_min, hit.t,
+      float farthest = reach(hit.t);
+      bool left = box_stretch(nodes[first].min, nodes[first].max, box_ray, ray.t_min, farthest,
                               left_enter, leave);
       bool right = box_stretch(nodes[first + 1u].min, nodes[first + 1u].max, box_ray, ray.t_min,
-                               hit.t, right_enter, leave);
+                               farthest, right_enter, leave);
       bool right_first = right && (!left || right_enter < left_enter);
       if (left && right) {
         bvh_waiting_enter[bvh_waiting_count] = right_first ? left_enter : right_enter;
@@ -47,14 +48,15 @@ bool traverse(Ray ray, inout Hit hit) {
       bvh_node = right_first ? first + 1u : first;
     } else {
       ENCORE_COUNT_TRIANGLE_TESTS(1u);
-      test_triangle(ray, scaled, first, hit);
+      test_triangle(ray, prepared, first, hit);
+      ENCORE_END_IF_HIT;
     }
     // Else the next waiting node that begins before the best hit, or not certainly behind it.
     while (!next) {
       if (bvh_waiting_count == 0) return true;
       ENCORE_SPEND;
       --bvh_waiting_count;
-      next = bvh_waiting_enter[bvh_waiting_count] * kNarrow <= hit.t;
+      next = bvh_waiting_enter[bvh_waiting_count] * kNarrow <= reach(hit.t);
       bvh_node = bvh_waiting[bvh_waiting_count];
     }
   }

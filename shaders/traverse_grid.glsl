@@ -31,9 +31,9 @@ void start_traversal(Ray ray) {
 // Goes on from where the traversal stands; true when it is over, false if it paused.
 bool traverse(Ray ray, inout Hit hit) {
   if (structure.references == 0u || grid_mode == kGridMissed) return true;
-  vec3 scaled = scaled_to_one(ray.direction);
-  if (grid_mode == kGridWalk) return walk(ray, scaled, hit);
-  return walk_thick(ray, scaled, make_box_ray(ray), hit);
+  PreparedRay prepared = prepare_ray(ray);
+  if (grid_mode == kGridWalk) return walk(ray, prepared, hit);
+  return walk_thick(ray, prepared, make_box_ray(ray), hit);
 }
 
 #ifdef ENCORE_RESUMABLE

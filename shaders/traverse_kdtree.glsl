@@ -80,7 +80,7 @@ void kd_descend(BoxRay ray, bvec3 negative) {
 bool traverse(Ray ray, inout Hit hit) {
   if (structure.references == 0u) return true;
   BoxRay box_ray = make_box_ray(ray);
-  vec3 scaled = scaled_to_one(ray.direction);
+  PreparedRay prepared = prepare_ray(ray);
   // A parallel ray of direction -0 takes its sides as one of +0 does; kd_plane_t() knows neither.
   bvec3 negative = lessThan(ray.direction, vec3(0.0));
   for (;;) {
@@ -89,7 +89,8 @@ bool traverse(Ray ray, inout Hit hit) {
     while (kd_reference < kd_reference_end) {
       ENCORE_PAUSE_IF_SPENT;
       ENCORE_SPEND;
-      test_triangle(ray, scaled, references[kd_reference], hit);
+      test_triangle(ray, prepared, references[kd_reference], hit);
+      ENCORE_END_IF_HIT;
       ++kd_reference;
     }
     ENCORE_PAUSE_IF_SPENT;
@@ -100,7 +101,7 @@ bool traverse(Ray ray, inout Hit hit) {
       if (kd_waiting_count == 0) return true;
       ENCORE_SPEND;
       --kd_waiting_count;
-    } while (kd_waiting_enter[kd_waiting_count] * kNarrow > hit.t);
+    } while (kd_waiting_enter[kd_waiting_count] * kNarrow > reach(hit.t));
     kd_index = kd_waiting[kd_waiting_count];
     kd_enter = kd_waiting_enter[kd_waiting_count];
     kd_leave = kd_waiting_leave[kd_waiting_count];

@@ -1,43 +1,25 @@
-// Throws out triangles that a ray certainly misses, in single precision, and leaves the rest to
-// decide_hit (twin of accel/triangle_filter.h, where the bound is derived). How a driver rounds or
-// fuses here does not matter: the bound covers it.
+// Holds triangles against a ray: by the mode of intersection, test_triangle() is the twin of
+// accel/triangle_filter.h, triangle_moller_trumbore.h or triangle_watertight.h. What it needs of a
+// ray is worked out once, by prepare_ray().
+#include "numbers.glsl"
 #include "scene_buffers.glsl"
+#ifdef ENCORE_MOLLER_TRUMBORE
+#include "triangle_moller_trumbore.glsl"
+#else
 #include "triangle_hit.glsl"
+#ifdef ENCORE_WATERTIGHT
+#include "triangle_watertight.glsl"
+#else
+#include "triangle_precise.glsl"
+#endif
+#endif
 
-// The direction times a power of two that brings its largest component into [1, 2).
-vec3 scaled_to_one(vec3 direction) {
-  uint exponent = floatBitsToUint(largest_component(direction)) >> 23;
-  vec3 scaled = direction * uintBitsToFloat((254u - min(exponent, 253u)) << 23);
-  return exponent > 253u ? 0.5 * scaled : scaled;
-}
-
-// `d`: the scaled direction.
-bool certainly_missed(vec3 origin, vec3 d, Triangle triangle) {
-  vec3 e1 = triangle.v1 - triangle.v0;
-  vec3 e2 = triangle.v2 - triangle.v0;
-  vec3 s = origin - triangle.v0;
-  vec3 p = cross(d, e2);
-  float edge = max(largest_component(e1), largest_component(e2));
-  // In this order, so that the bound overflows wherever the sums may: a compiler that folds the two
-  // constants first would keep it finite and lose triangles of huge scenes.
-  precise float error = ENCORE_FILTER_LARGEST * edge * max(edge, largest_component(s)) *
-                    ENCORE_FILTER_ERROR + ENCORE_FILTER_UNDERFLOW;
-  float det = dot(e1, p);
-  float u = dot(s, p);
-  vec3 q = cross(s, e1);
-  float v = dot(d, q);
-  if (det < 0.0) {
-    det = -det;
-    u = -u;
-    v = -v;
-  }
-  bool outside = u < -error || v < -error || u + v > det + error;
-  return det > error && outside;
-}
-
-// Tests one triangle against a ray whose scaled direction is `d`.
-void test_triangle(Ray ray, vec3 d, uint index, inout Hit best) {
-  Triangle triangle = triangles[index];
-  if (certainly_missed(ray.origin, d, triangle)) return;
-  decide_hit(ray, triangle, index, best);
-}
+// Ends a traversal (which is to return true when it is over) at the first hit that it accepts, where
+// any will do: programs for rays that only ask whether something is in the way define
+// ENCORE_ANY_HIT. A ray that pauses has not hit anything yet, so nothing of this need be stored.
+#ifdef ENCORE_ANY_HIT
+#define ENCORE_END_IF_HIT \
+  if (hit.triangle != kNoHit) return true
+#else
+#define ENCORE_END_IF_HIT
+#endif

@@ -14,6 +14,35 @@ dvec3 exact_cross(dvec3 a, dvec3 b) {
   return product;
 }
 
+dvec2 exact_shear(dvec2 p, dvec2 shear, double along) {
+  precise dvec2 sheared = p - shear * along;
+  return sheared;
+}
+
+// What rounding took from a product, exactly (Dekker 1971).
+double rest_of_product(double a, double b, double product) {
+  precise double a_scaled = 134217729.0lf * a;  // 2^27 + 1
+  precise double b_scaled = 134217729.0lf * b;
+  precise double a_high = a_scaled - (a_scaled - a);
+  precise double b_high = b_scaled - (b_scaled - b);
+  precise double a_low = a - a_high;
+  precise double b_low = b - b_high;
+  precise double rest =
+      a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+  return rest;
+}
+
+// On which side of the edge from p to q the ray passes; the sign is exact for these p and q.
+double edge_function(dvec2 p, dvec2 q) {
+  precise double forward = p.x * q.y;
+  precise double backward = p.y * q.x;
+  precise double difference = forward - backward;
+  if (forward != backward) return difference;
+  precise double rest =
+      rest_of_product(p.x, q.y, forward) - rest_of_product(p.y, q.x, backward);
+  return rest;
+}
+
 double largest_double(dvec3 v) {
   return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
@@ -33,6 +62,9 @@ bool confine_to_box(Ray ray, Triangle triangle, inout float t) {
       continue;
     }
     float inverse = float(1.0lf / double(ray.direction[axis]));
+    // One outside the normal range gives no distances (plane_inverse() of accel/box_hit.h).
+    uint magnitude = floatBitsToUint(inverse) & 0x7FFFFFFFu;
+    if (magnitude < 0x00800000u || magnitude >= 0x7F800000u) continue;
     bool negative = ray.direction[axis] < 0.0;
     precise float near = ((negative ? upper[axis] : lower[axis]) - origin) * inverse;
     precise float far = ((negative ? lower[axis] : upper[axis]) - origin) * inverse;
@@ -48,7 +80,6 @@ bool confine_to_box(Ray ray, Triangle triangle, inout float t) {
 // Accepts the triangle into `best` and returns true if the ray crosses it at a smaller t, or at the
 // same t with a lower index.
 bool decide_hit(Ray ray, Triangle triangle, uint index, inout Hit best) {
-  // The signed volumes that the ray's line spans with each edge.
   dvec3 v0 = dvec3(triangle.v0);
   dvec3 v1 = dvec3(triangle.v1);
   dvec3 v2 = dvec3(triangle.v2);
@@ -57,15 +88,19 @@ bool decide_hit(Ray ray, Triangle triangle, uint index, inout Hit best) {
   precise dvec3 a = v0 - origin;
   precise dvec3 b = v1 - origin;
   precise dvec3 c = v2 - origin;
-  precise dvec3 edge_a = v2 - v1;
-  precise dvec3 edge_b = v0 - v2;
   precise dvec3 edge_c = v1 - v0;
-  precise dvec3 sum_a = c + b;
-  precise dvec3 sum_b = a + c;
-  precise dvec3 sum_c = b + a;
-  double weight_a = exact_dot(direction, exact_cross(edge_a, sum_a));
-  double weight_b = exact_dot(direction, exact_cross(edge_b, sum_b));
-  double weight_c = exact_dot(direction, exact_cross(edge_c, sum_c));
+  // The ray is made the z axis; edge functions of the sheared vertices decide.
+  dvec3 size = abs(direction);
+  int kz = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+  int kx = kz == 2 ? 0 : kz + 1;
+  int ky = kx == 2 ? 0 : kx + 1;
+  precise dvec2 shear = dvec2(direction[kx] / direction[kz], direction[ky] / direction[kz]);
+  dvec2 sheared_a = exact_shear(dvec2(a[kx], a[ky]), shear, a[kz]);
+  dvec2 sheared_b = exact_shear(dvec2(b[kx], b[ky]), shear, b[kz]);
+  dvec2 sheared_c = exact_shear(dvec2(c[kx], c[ky]), shear, c[kz]);
+  double weight_a = edge_function(sheared_c, sheared_b);
+  double weight_b = edge_function(sheared_a, sheared_c);
+  double weight_c = edge_function(sheared_b, sheared_a);
 
   // Inside if no two of them disagree in sign.
   bool any_negative = weight_a < 0.0lf || weight_b < 0.0lf || weight_c < 0.0lf;

@@ -164,26 +164,28 @@ bool cross_together(float best) {
 }
 
 // True when the walk is over, false if it paused.
-bool walk(Ray ray, vec3 scaled, inout Hit hit) {
+bool walk(Ray ray, PreparedRay prepared, inout Hit hit) {
   bool inside = true;
   while (inside) {
-    if (!finish_cell(ray, scaled, hit)) return false;
+    if (!finish_cell(ray, prepared, hit)) return false;
+    ENCORE_END_IF_HIT;
     ENCORE_PAUSE_IF_SPENT;
     ENCORE_SPEND;
     // The common case: one plane is certainly the next.
     float tx = walk_x.next_t;
     float ty = walk_y.next_t;
     float tz = walk_z.next_t;
+    float best = reach(hit.t);
     if (walk_subset != 0u) {
-      inside = cross_together(hit.t);
+      inside = cross_together(best);
     } else if (tx * kWiden < min(ty, tz)) {
-      inside = cross_single(walk_x, hit.t);
+      inside = cross_single(walk_x, best);
     } else if (ty * kWiden < min(tx, tz)) {
-      inside = cross_single(walk_y, hit.t);
+      inside = cross_single(walk_y, best);
     } else if (tz * kWiden < min(tx, ty)) {
-      inside = cross_single(walk_z, hit.t);
+      inside = cross_single(walk_z, best);
     } else {
-      inside = cross_together(hit.t);
+      inside = cross_together(best);
     }
   }
   return true;

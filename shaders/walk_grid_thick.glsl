@@ -88,7 +88,7 @@ void start_thick() {
 }
 
 // True when the walk is over, false if it paused.
-bool walk_thick(Ray ray, vec3 scaled, BoxRay box_ray, inout Hit hit) {
+bool walk_thick(Ray ray, PreparedRay prepared, BoxRay box_ray, inout Hit hit) {
   ThickAxis a = thick_axis(0, ray, box_ray);
   ThickAxis b = thick_axis(1, ray, box_ray);
   ThickAxis c = thick_axis(2, ray, box_ray);
@@ -105,7 +105,8 @@ bool walk_thick(Ray ray, vec3 scaled, BoxRay box_ray, inout Hit hit) {
 
   thick_slab = max(thick_slab, a.first);
   for (;;) {
-    if (!finish_cell(ray, scaled, hit)) return false;
+    if (!finish_cell(ray, prepared, hit)) return false;
+    ENCORE_END_IF_HIT;
     ENCORE_PAUSE_IF_SPENT;
     ENCORE_SPEND;
     if (thick_next.x >= thick_js.y) {
@@ -114,9 +115,10 @@ bool walk_thick(Ray ray, vec3 scaled, BoxRay box_ray, inout Hit hit) {
       if (thick_next.y < thick_ks.y && thick_js.x < thick_js.y) continue;
       if (thick_slab >= a.last) return true;
       float enter = max(thick_enter(a, thick_slab), ray.t_min);
-      float leave = min(thick_leave(a, thick_slab), hit.t);
+      float best = reach(hit.t);
+      float leave = min(thick_leave(a, thick_slab), best);
       ++thick_slab;
-      if (enter > hit.t) return true;
+      if (enter > best) return true;
       thick_js = uvec2(0u);
       thick_ks = uvec2(0u);
       if (leave >= enter) {

@@ -17,6 +17,14 @@
 #define ENCORE_BINDING_COUNTERS 11    // uint[]: three a ray: steps, box tests, triangle tests
 #define ENCORE_BINDING_PAUSED_RAYS 12   // uint[]: a slot a ray, see pausing.glsl
 #define ENCORE_BINDING_PAUSED_COUNT 13  // uint: how many slots are in use
+#define ENCORE_BINDING_TEXCOORDS 14  // float[]: six a triangle, texture coordinates of its corners
+#define ENCORE_BINDING_TEXTURES 15   // uint[]: see texture_lookup.glsl
+// Pictures of several rays a pixel (paths.glsl) reuse the bindings of what they do not need.
+#define ENCORE_BINDING_PATHS 9          // gpu::Path[]: one a pixel of a band
+#define ENCORE_BINDING_PATH_QUEUES 10   // uint[]: who is to be traced
+#define ENCORE_BINDING_SHADOW_RAYS 11   // gpu::ShadowRay[]: of one light
+#define ENCORE_BINDING_WAITING_RAYS 12  // gpu::WaitingRay[]: a stack a path
+#define ENCORE_BINDING_BOUNCES 13       // gpu::Bounce[]: what materials mirror and let through
 // The refit pass alone reuses the bindings of what it does not need.
 #define ENCORE_BINDING_PARENTS 2      // uint[]: of each pair of siblings, the parent's index
 #define ENCORE_BINDING_ARRIVALS 3     // uint[]: of each pair of siblings, who has arrived
@@ -25,6 +33,12 @@
 // Uniform buffers.
 #define ENCORE_BINDING_STRUCTURE 0  // gpu::StructureParameters
 #define ENCORE_BINDING_CAMERA 1     // gpu::CameraParameters
+
+// Words at the start of the path queues.
+#define ENCORE_QUEUE_SHADOWS 0      // shadow rays of the light in hand
+#define ENCORE_QUEUE_REFLECTIONS 1  // how many paths go on with a reflected ray
+#define ENCORE_QUEUE_REFRACTIONS 2  // how many with a refracted one
+#define ENCORE_QUEUE_WORDS 4        // what lists begin after
 
 // Images.
 #define ENCORE_BINDING_PICTURE 0  // rgba32f, linear RGB, row 0 at the top

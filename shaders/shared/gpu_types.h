@@ -94,12 +94,14 @@ struct Ray {
   float t_max;
 };
 
+#define ENCORE_NO_TEXTURE 0xFFFFFFFFu
+
 // What shading needs of a material: emission and ambient light are summed beforehand.
 struct Material {
   vec3 diffuse;
   float shininess;
   vec3 specular;
-  uint reserved0;
+  uint texture;  // which one multiplies the diffuse colour; ENCORE_NO_TEXTURE: none
   vec3 glow;
   uint reserved1;
 };

@@ -123,7 +123,7 @@ TEST_F(LayoutTest, Material) {
   expect_same_layout(
       "Material", sizeof(gpu::Material),
       {MEMBER(Material, diffuse), MEMBER(Material, shininess), MEMBER(Material, specular),
-       MEMBER(Material, reserved0), MEMBER(Material, glow), MEMBER(Material, reserved1)},
+       MEMBER(Material, texture), MEMBER(Material, glow), MEMBER(Material, reserved1)},
       false);
 }
 

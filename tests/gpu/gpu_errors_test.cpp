@@ -2,6 +2,7 @@
 #include "accel/brute_force.h"
 #include "tests/bvh/test_scenes.h"
 #include "tests/gpu/gpu_scenes.h"
+#include "tests/gpu/small_device.h"
 #include "tests/support/messages.h"
 
 #include <stdexcept>
@@ -23,25 +24,6 @@ std::string message_of(const Action& action) {
   ADD_FAILURE() << "nothing was thrown";
   return {};
 }
-
-/// A device whose storage buffers are small, on the context of another.
-class SmallDevice final : public gl::Context {
- public:
-  SmallDevice(std::shared_ptr<gl::Context> context, std::uint64_t storage_block_bytes)
-      : context_(std::move(context)) {
-    context_->make_current();
-    capabilities_ = context_->capabilities();
-    capabilities_.storage_block_bytes = storage_block_bytes;
-    capabilities_.texture_size = 64;
-  }
-  void make_current() override { context_->make_current(); }
-  void allow(std::uint64_t storage_block_bytes) {
-    capabilities_.storage_block_bytes = storage_block_bytes;
-  }
-
- private:
-  std::shared_ptr<gl::Context> context_;
-};
 
 using GpuErrors = encore::test::GlTest;
 
@@ -104,6 +86,10 @@ TEST_F(GpuErrors, WrongCamerasAndSizesAreRefusedAsOnTheCpu) {
   EXPECT_TRUE(contains(message_of<gl::GlError>([&] { tracer.trace_hits({}, 1 << 30, 8, hits); }),
                        "1073741824 x 8"));
   EXPECT_TRUE(hits.empty());
+  EXPECT_THROW(tracer.draw_samples({}, 8, 8, 0, 2), std::invalid_argument);
+  EXPECT_THROW(tracer.draw_samples({}, 8, 8, 1, 1), std::invalid_argument);
+  EXPECT_THROW(tracer.draw_samples({}, 8, 8, 0, 0), std::invalid_argument);
+  EXPECT_NO_THROW(tracer.draw_samples({}, 8, 8, 0, 1));
 }
 
 TEST_F(GpuErrors, APictureLargerThanTheDeviceAllowsIsRefused) {

@@ -1,7 +1,8 @@
 // Only what changed is sent, and what the device holds is what the host has.
 #include "shaders/shared/gpu_types.h"
+#include "shaders/shared/path_types.h"
 #include "tests/bvh/test_scenes.h"
-#include "tests/gpu/gpu_scenes.h"
+#include "tests/gpu/path_scenes.h"
 
 namespace encore::renderer::test {
 namespace {
@@ -148,6 +149,56 @@ TEST_P(GpuUploads, FromNothingToSomethingAndBack) {
     tracer.refresh();
     expect_current_hits(tracer, *setup);
   }
+}
+
+TEST_P(GpuUploads, TexturesAndWhatRaysNeedAreSentWhenTheyAreNeeded) {
+  const auto setup = scene_of(accel::test::soup(40, 5.0F, 1), spec_of(GetParam()));
+  setup->scene.lights.resize(1);
+  setup->scene.materials.resize(3);
+  setup->scene.materials[1].reflectivity = 0.5F;
+  add_textures(*setup);
+  constexpr std::uint64_t kHead = (256 + 2 * 4) * sizeof(std::uint32_t);
+  constexpr std::uint64_t kTexels = (7 * 5 + 1 * 3) * sizeof(std::uint32_t);
+  constexpr std::uint64_t kCoordinates = std::uint64_t{40} * 3 * sizeof(glm::vec2);
+  const std::uint64_t bounces = 4 * sizeof(gpu::Bounce);
+  GpuTracer tracer(context_);
+  tracer.init(setup->input());
+  const auto sent = [&] { return tracer.last_transfer().uploaded_bytes; };
+  EXPECT_EQ(sent(), triangle_bytes(*setup, 40) + kCoordinates + structure_bytes(*setup) +
+                        material_bytes(*setup) + kHead + kTexels);
+  EXPECT_EQ(tracer.last_transfer().converted_bytes, material_bytes(*setup) + kHead);
+
+  setup->list.texcoords[7][1] += glm::vec2(0.25F);
+  setup->list.bookkeeping.instances[0].version = ++setup->list.version;
+  tracer.refresh();
+  EXPECT_EQ(sent(), triangle_bytes(*setup, 40) + kCoordinates);
+  setup->scene.mark_changed();
+  tracer.refresh();
+  EXPECT_EQ(sent(), material_bytes(*setup)) << "the same textures are worn";
+  setup->scene.materials[2].diffuse_texture = nullptr;
+  setup->scene.mark_changed();
+  tracer.refresh();
+  EXPECT_EQ(sent(), material_bytes(*setup) + (256 + 4 + 3) * sizeof(std::uint32_t));
+
+  tracer.set_rays({.reflections = true, .textures = false});
+  tracer.refresh();
+  EXPECT_EQ(sent(), material_bytes(*setup) + bounces);
+  tracer.set_rays({.shadows = true, .samples = 4});
+  tracer.refresh();
+  EXPECT_EQ(sent(), material_bytes(*setup) + kCoordinates);
+  tracer.set_rays({.samples = 9});
+  tracer.refresh();
+  EXPECT_EQ(sent(), 0U);
+  CpuTracer cpu(1);
+  cpu.set_rays({.samples = 9});
+  cpu.init(setup->input());
+  tracer.draw(setup->scene.camera, 32, 32);
+  cpu.draw(setup->scene.camera, 32, 32);
+  Image found;
+  Image expected;
+  tracer.read(found);
+  cpu.read(expected);
+  expect_within_bound(found, expected, "textures");
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, GpuUploads, testing::ValuesIn(gpu_kinds()), kind_name);

@@ -48,7 +48,8 @@ TEST_F(ReferenceCompiler, AcceptsEveryWayToTrace) {
   for (const auto kind : {accel::StructureKind::grid_box, accel::StructureKind::kd_sah,
                           accel::StructureKind::bvh_median}) {
     for (const auto output :
-         {TraceOutput::picture, TraceOutput::hits, TraceOutput::counters, TraceOutput::ray_hits}) {
+         {TraceOutput::picture, TraceOutput::hits, TraceOutput::counters, TraceOutput::ray_hits,
+          TraceOutput::path_hits, TraceOutput::shadows}) {
       for (const int pausing : {0, 1, 2}) {
         const TraceVariant variant{.kind = kind,
                                    .depth = 40,
@@ -64,20 +65,80 @@ TEST_F(ReferenceCompiler, AcceptsEveryWayToTrace) {
 }
 
 TEST_F(ReferenceCompiler, AcceptsEveryWayToShade) {
-  for (unsigned bits = 0; bits < 16; ++bits) {
+  for (unsigned bits = 0; bits < 32; ++bits) {
     std::vector<std::string> defines;
     if ((bits & 1U) != 0) defines.emplace_back("ENCORE_NORMALS");
     if ((bits & 2U) != 0) defines.emplace_back("ENCORE_COLORS");
     if ((bits & 4U) != 0) defines.emplace_back("ENCORE_SPECULAR");
     if ((bits & 8U) != 0) defines.emplace_back("ENCORE_LIGHTS");
+    if ((bits & 16U) != 0) defines.emplace_back("ENCORE_TEXTURES");
     EXPECT_EQ(complaints("raster.frag", "frag", defines), "") << bits;
     const TraceVariant variant{.needs = {.normals = (bits & 1U) != 0,
                                          .colors = (bits & 2U) != 0,
+                                         .textures = (bits & 16U) != 0,
                                          .specular = (bits & 4U) != 0},
                                .lights = (bits & 8U) != 0};
     EXPECT_EQ(complaints("trace.comp", "comp", renderer::trace_defines(variant)), "") << bits;
   }
   EXPECT_EQ(complaints("raster.vert", "vert", {}), "");
+}
+
+TEST_F(ReferenceCompiler, AcceptsEveryPassOfPaths) {
+  using renderer::PathPass;
+  const auto expect_accepted = [](PathPass pass, const scene::Needs& needs, unsigned bits) {
+    const std::string file = renderer::path_pass_file(pass);
+    EXPECT_EQ(complaints(file, "comp", renderer::path_pass_defines(pass, needs)), "")
+        << file << ", " << bits;
+  };
+  for (const bool several : {false, true}) {
+    expect_accepted(PathPass::start, {.samples = several}, 0);
+    expect_accepted(PathPass::finish, {.samples = several}, 0);
+  }
+  for (unsigned bits = 0; bits < 32; ++bits) {
+    const bool lit = (bits & 1U) != 0;
+    const bool detailed = (bits & 2U) != 0;
+    const scene::Needs needs{.lights = lit,
+                             .normals = detailed,
+                             .colors = lit && detailed,
+                             .textures = lit && detailed,
+                             .highlights = lit && detailed,
+                             .shadows = lit && (bits & 4U) != 0,
+                             .reflections = (bits & 8U) != 0,
+                             .refractions = (bits & 16U) != 0};
+    expect_accepted(PathPass::scatter, needs, bits);
+    if (needs.shadows) expect_accepted(PathPass::light, needs, bits);
+  }
+}
+
+TEST_F(ReferenceCompiler, SeesNothingOfWhatPlainScenesDoNotNeed) {
+  const test::TemporaryFolder folder;
+  const auto left_of = [&](const TraceVariant& variant) {
+    const auto shader = folder.write(
+        "shader.comp",
+        renderer::gl::assemble_shader("trace.comp", renderer::trace_defines(variant)).text);
+    const auto left = folder.path() / "left";
+    const std::string command = std::string(ENCORE_GLSLANG) + " -E -S comp \"" + shader.string() +
+                                "\" > \"" + left.string() + "\" 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    return test::contents_of(left);
+  };
+  TraceVariant variant{.depth = 9, .needs = {.normals = true, .specular = true}, .lights = true};
+  const std::string plain = left_of(variant);
+  variant.needs.textures = true;
+  const std::string textured = left_of(variant);
+  variant.output = TraceOutput::shadows;
+  const std::string shadows = left_of(variant);
+  for (const char* word : {"texture_color", "texcoords"}) {
+    EXPECT_EQ(plain.find(word), std::string::npos) << word;
+    EXPECT_NE(textured.find(word), std::string::npos) << word;
+  }
+  for (const char* word : {"paths", "path_queues", "shadow_rays", "Bounce", "WaitingRay"}) {
+    EXPECT_EQ(plain.find(word), std::string::npos) << word;
+    EXPECT_EQ(textured.find(word), std::string::npos) << word;
+  }
+  EXPECT_NE(shadows.find("shadow_rays"), std::string::npos);
+  EXPECT_EQ(plain.find("light_in_hand"), std::string::npos);
+  EXPECT_EQ(plain.find("sample_offset"), std::string::npos);
 }
 
 TEST_F(ReferenceCompiler, AcceptsEveryWayToRefit) {

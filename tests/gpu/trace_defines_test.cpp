@@ -50,6 +50,8 @@ TEST(TraceDefines, EachFeatureAddsItsOwnOnly) {
   expect_more(variant, "ENCORE_COLORS");
   variant.needs = {.specular = true};
   expect_more(variant, "ENCORE_SPECULAR");
+  variant.needs = {.textures = true};
+  expect_more(variant, "ENCORE_TEXTURES");
 }
 
 TEST(TraceDefines, WithoutLightThereIsNothingToShade) {
@@ -72,6 +74,41 @@ TEST(TraceDefines, NothingIsShadedWhereNoPictureIsAskedFor) {
   variant.output = TraceOutput::ray_hits;
   EXPECT_EQ(defines_of(variant), (Defines{"ENCORE_TRAVERSE_KDTREE", "ENCORE_STACK_SIZE 32",
                                           "ENCORE_OUTPUT_HITS", "ENCORE_RAYS_FROM_BUFFER"}));
+}
+
+TEST(TraceDefines, RaysOfPathsAreTracedWithoutShading) {
+  TraceVariant variant{.kind = StructureKind::grid_exact,
+                       .output = TraceOutput::path_hits,
+                       .needs = {.normals = true, .textures = true},
+                       .lights = true};
+  EXPECT_EQ(defines_of(variant), (Defines{"ENCORE_TRAVERSE_GRID", "ENCORE_PATHS"}));
+  variant.output = TraceOutput::shadows;
+  EXPECT_EQ(defines_of(variant),
+            (Defines{"ENCORE_TRAVERSE_GRID", "ENCORE_PATHS", "ENCORE_ANY_HIT"}));
+}
+
+TEST(PathPassDefines, AreOfWhatIsNeededOnly) {
+  using renderer::PathPass;
+  const auto defines = [](PathPass pass, const scene::Needs& needs) {
+    const std::vector<std::string> list = renderer::path_pass_defines(pass, needs);
+    return Defines(list.begin(), list.end());
+  };
+  const Defines group{"ENCORE_GROUP_X 8", "ENCORE_GROUP_Y 8"};
+  EXPECT_EQ(defines(PathPass::finish, {.lights = true, .shadows = true}), group);
+  EXPECT_EQ(defines(PathPass::start, {.shadows = true}),
+            (Defines{"ENCORE_GROUP_X 8", "ENCORE_GROUP_Y 8", "ENCORE_SAMPLES"}));
+  EXPECT_TRUE(defines(PathPass::start, {.samples = true}).contains("ENCORE_SEVERAL_SAMPLES"));
+  // Several samples alone take no more than shading.
+  EXPECT_EQ(defines(PathPass::scatter, {.lights = true, .textures = true, .samples = true}),
+            (Defines{"ENCORE_GROUP_SIZE 64", "ENCORE_LIGHTS", "ENCORE_TEXTURES"}));
+  // With shadows the light pass does that, and the scatter pass none of it.
+  const scene::Needs shadowed{.lights = true, .normals = true, .shadows = true};
+  EXPECT_EQ(defines(PathPass::scatter, shadowed), (Defines{"ENCORE_GROUP_SIZE 64"}));
+  EXPECT_EQ(defines(PathPass::light, shadowed), (Defines{"ENCORE_GROUP_SIZE 64", "ENCORE_LIGHTS",
+                                                         "ENCORE_NORMALS", "ENCORE_ONE_LIGHT"}));
+  EXPECT_EQ(
+      defines(PathPass::scatter, {.normals = true, .refractions = true}),
+      (Defines{"ENCORE_GROUP_SIZE 64", "ENCORE_BOUNCES", "ENCORE_REFRACTIONS", "ENCORE_NORMALS"}));
 }
 
 TEST(TraceDefines, EveryKindButBruteHasATraversal) {

@@ -176,6 +176,28 @@ TEST(CpuTracer, NothingIsAllocatedAfterTheFirstFrame) {
   }
 }
 
+TEST(CpuTracer, NothingIsAllocatedAfterTheFirstFrameWithRaysOfAllKinds) {
+  for (const int threads : {1, 2}) {
+    const auto setup = sphere_before_square();
+    setup->scene.materials[0].reflectivity = 0.5F;
+    setup->scene.materials[1].opacity = 0.5F;
+    CpuTracer tracer(threads);
+    tracer.set_rays({.shadows = true, .reflections = true, .refractions = true, .samples = 2});
+    tracer.init(setup->input());
+    Image image = blank(64, 64);
+    const auto frame = [&] {
+      tracer.refresh();
+      tracer.render(setup->scene.camera, image);
+      tracer.draw_samples(setup->scene.camera, 64, 64, 1, 1);
+    };
+    frame();
+    const std::uint64_t before = renderer::test::allocations_so_far();
+    for (int i = 0; i < 5; ++i) frame();
+    EXPECT_EQ(renderer::test::allocations_so_far() - before, 0U) << threads << " threads";
+    EXPECT_GT((*tracer.last_rays())[scene::RayKind::refraction].rays, 0U);
+  }
+}
+
 TEST(CpuTracer, CancellingLeavesTheRestOfTheImageAlone) {
   const auto setup = sphere_before_square();
   const renderer::RenderInput input = setup->input();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace {
@@ -13,6 +14,10 @@ namespace {
 using namespace encore;
 using renderer::kAmbientLight;
 using renderer::test::TestScene;
+
+renderer::ShadingNeeds needs_of(const TestScene& setup) {
+  return renderer::shading_needs(scene::needs_of(setup.scene, setup.list, {}));
+}
 
 /// The colour of the ray from `eye` towards `target`.
 glm::vec3 color_seen(TestScene& setup, const glm::vec3& eye, const glm::vec3& target) {
@@ -23,7 +28,7 @@ glm::vec3 color_seen(TestScene& setup, const glm::vec3& eye, const glm::vec3& ta
   std::vector<scene::Hit> hits(1);
   std::vector<glm::vec3> colors(1);
   setup.structure.intersect(rays, hits);
-  const auto shade = renderer::choose_shading(renderer::shading_needs(setup.scene, setup.list));
+  const auto shade = renderer::choose_shading(needs_of(setup));
   shade({&setup.scene, &setup.list}, rays, hits, colors);
   return colors[0];
 }
@@ -134,6 +139,26 @@ TEST(Shading, VertexColoursMultiplyTheDiffuseColourOnly) {
               with_white - diffuse + diffuse * glm::dvec3(0.5, 0.0, 0.5));
 }
 
+TEST(Shading, TexturesMultiplyTheDiffuseColourWhereTheSurfaceWearsOne) {
+  TestScene setup = lit_square();
+  const glm::vec3 bare = color_seen(setup, {0, 0, 5}, {0, 0, 0});
+  auto texture = std::make_shared<scene::Texture>();
+  texture->width = texture->height = 1;
+  texture->texels = {0xFF00FF00U};  // green
+  setup.list.texcoords.resize(2);
+  EXPECT_EQ(color_seen(setup, {0, 0, 5}, {0, 0, 0}), bare) << "no material has it yet";
+  setup.scene.materials[0].diffuse_texture = texture;
+  EXPECT_TRUE(needs_of(setup).textures);
+  const auto& m = setup.scene.materials[0];
+  const auto& light = setup.scene.lights[0].color;
+  const glm::dvec3 red_blue = glm::dvec3(light) * glm::dvec3(m.diffuse) * 0.8 * glm::dvec3(1, 0, 1);
+  expect_near(color_seen(setup, {0, 0, 5}, {0, 0, 0}), glm::dvec3(bare) - red_blue);
+  setup.list.colors.assign(2, {glm::vec3(0.5F), glm::vec3(0.5F), glm::vec3(0.5F)});
+  const glm::dvec3 half_green =
+      glm::dvec3(light) * glm::dvec3(m.diffuse) * 0.8 * glm::dvec3(0, 0.5, 0);
+  expect_near(color_seen(setup, {0, 0, 5}, {0, 0, 0}), glm::dvec3(bare) - red_blue - half_green);
+}
+
 TEST(Shading, AMissShowsTheBackground) {
   TestScene setup = lit_square();
   EXPECT_EQ(color_seen(setup, {0, 0, 5}, {0, 0, 9}), setup.scene.background);
@@ -141,20 +166,21 @@ TEST(Shading, AMissShowsTheBackground) {
 
 TEST(Shading, WhatTheSceneDoesNotUseIsLeftOut) {
   TestScene setup = lit_square();
-  auto needs = renderer::shading_needs(setup.scene, setup.list);
+  auto needs = needs_of(setup);
   EXPECT_FALSE(needs.normals);
   EXPECT_FALSE(needs.colors);
   EXPECT_TRUE(needs.specular);
   setup.scene.lights.clear();
-  EXPECT_FALSE(renderer::shading_needs(setup.scene, setup.list).specular);
+  EXPECT_FALSE(needs_of(setup).specular);
   setup.scene.lights.resize(1);
   setup.scene.materials[0].specular = glm::vec3(0);
-  EXPECT_FALSE(renderer::shading_needs(setup.scene, setup.list).specular);
+  EXPECT_FALSE(needs_of(setup).specular);
   setup.list.normals.resize(2);
   setup.list.colors.resize(2);
-  needs = renderer::shading_needs(setup.scene, setup.list);
+  needs = needs_of(setup);
   EXPECT_TRUE(needs.normals);
   EXPECT_TRUE(needs.colors);
+  EXPECT_FALSE(needs.textures);
 }
 
 TEST(Shading, SizeOfTheSceneDoesNotMatter) {
