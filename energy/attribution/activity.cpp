@@ -1,7 +1,8 @@
 #include "energy/attribution/activity.h"
 
+#include "energy/sampling/low_pass.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace encore::energy {
 
@@ -31,7 +32,7 @@ std::vector<double> smoothed_share(const Activity& activity, double tau,
   double now = activity.empty() ? 0.0 : activity.front().start.value;
   const auto advance = [&](double to, double share) {
     if (to <= now) return;
-    shown += (share - shown) * -std::expm1(-(to - now) / tau);
+    shown = low_pass_step(shown, share, to - now, tau);
     now = to;
   };
   std::size_t next = 0;

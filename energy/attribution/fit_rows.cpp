@@ -184,4 +184,25 @@ FitRows gauge_rows(const TraceView& trace, const std::vector<Activity>& activiti
   return rows;
 }
 
+FitRows merge_columns(const FitRows& rows, const std::vector<std::vector<std::size_t>>& groups) {
+  FitRows merged = rows;
+  const auto sum = [&](const DenseMatrix& all) {
+    DenseMatrix result(all.rows(), 0);
+    std::size_t used = 0;
+    for (const std::vector<std::size_t>& group : groups) {
+      std::vector<double> total(all.rows(), 0.0);
+      for (const std::size_t c : group) {
+        for (std::size_t i = 0; i < total.size(); ++i) total[i] += all(i, c);
+      }
+      result.add_column(total);
+      used += group.size();
+    }
+    for (std::size_t c = used; c < all.columns(); ++c) result.add_column(all.column(c));
+    return result;
+  };
+  merged.columns = sum(rows.columns);
+  merged.timing = sum(rows.timing);
+  return merged;
+}
+
 }  // namespace encore::energy

@@ -52,4 +52,8 @@ FitRows gauge_rows(const TraceView& trace, const std::vector<Activity>& activiti
                    const std::vector<Window>& windows, const GaugeKernel& kernel, double settling,
                    double period);
 
+/// Rows whose columns are sums: `groups` lists those of each, in order; the last column (all time)
+/// stays as it is, where there is one column more than the groups hold.
+FitRows merge_columns(const FitRows& rows, const std::vector<std::vector<std::size_t>>& groups);
+
 }  // namespace encore::energy

@@ -128,6 +128,39 @@ Identifiability identifiability(const FitRows& rows) {
   return result;
 }
 
+void phases_first(Identifiability& found, std::size_t phases) {
+  std::stable_partition(found.alike.begin(), found.alike.end(), [&](const auto& set) {
+    return std::none_of(set.begin(), set.end(), [&](std::size_t c) { return c >= phases; });
+  });
+}
+
+std::string refusal(const Identifiability& found, const std::vector<std::string>& names) {
+  // An infinite condition is beyond the worst, and so would be one that is no number.
+  const bool by_timing = found.condition <= kWorstCondition;
+  if (by_timing && found.timing <= kMostTiming) return {};
+  if (by_timing) {
+    return "the mix of phases changed hardly more than the times of the sensor's updates are "
+           "known: "
+           "cannot be told apart";
+  }
+  if (found.alike.empty()) return "the phases always ran in the same mix: cannot be told apart";
+  return describe(found.alike.front(), names, true);
+}
+
+std::optional<ColumnGroups> join_pair(ColumnGroups groups, std::size_t count,
+                                      const std::vector<std::size_t>& alike) {
+  if (alike.size() != 2) return std::nullopt;
+  for (std::size_t c = groups.empty() ? 0 : count; c < count; ++c) groups.push_back({c});
+  const auto [a, b] = std::minmax(alike[0], alike[1]);
+  if (b >= groups.size()) return std::nullopt;
+  groups[a].insert(groups[a].end(), groups[b].begin(), groups[b].end());
+  groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(b));
+  const bool some_alone =
+      std::any_of(groups.begin(), groups.end(), [](const auto& g) { return g.size() == 1; });
+  if (!some_alone) return std::nullopt;
+  return groups;
+}
+
 std::string describe(const std::vector<std::size_t>& alike, const std::vector<std::string>& names,
                      bool refused) {
   std::string list;

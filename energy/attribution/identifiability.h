@@ -2,6 +2,7 @@
 
 #include "energy/attribution/fit_rows.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,20 @@ struct Identifiability {
 /// timing of updates is no information, so a steady loop of phases far below the update period is
 /// seen as the constant mix that it is.
 Identifiability identifiability(const FitRows& rows);
+
+/// The sets of `alike` that hold only the first `phases` columns go first: that two phases are
+/// alike says more than that idle time is, too.
+void phases_first(Identifiability& found, std::size_t phases);
+
+/// Why the columns cannot be told apart, in one sentence; empty if they can.
+std::string refusal(const Identifiability& found, const std::vector<std::string>& names);
+
+/// Groups of columns that are fitted as one each.
+using ColumnGroups = std::vector<std::vector<std::size_t>>;
+/// `groups` (if empty, each of the `count` columns alone) with two of them joined; nothing if
+/// `alike` is no pair of them, or no column would be left that stands alone.
+std::optional<ColumnGroups> join_pair(ColumnGroups groups, std::size_t count,
+                                      const std::vector<std::size_t>& alike);
 
 /// "build and render always ran in the same proportion: cannot be told apart"; `names`: a column.
 std::string describe(const std::vector<std::size_t>& alike, const std::vector<std::string>& names,

@@ -49,6 +49,7 @@ class Regression {
   [[nodiscard]] bool has_enough_rows();
   void drop_unseen();
   [[nodiscard]] bool judge();
+  [[nodiscard]] bool merge(const std::vector<std::size_t>& alike);
   [[nodiscard]] bool idle_is_unseen() const;
   void refuse(const std::string& why);
   void weigh_rows();
@@ -63,6 +64,9 @@ class Regression {
   std::vector<std::string> all_names_;
   std::vector<std::size_t> columns_;  ///< of the timeline, those that ran
   std::vector<std::string> names_;    ///< of the fit's columns, "idle" last
+  /// Of `columns_`, those that are one column of the fit since nothing tells them apart; empty:
+  /// each stands alone.
+  std::vector<std::vector<std::size_t>> groups_;
   std::vector<Activity> activities_;  ///< of the fit's columns but idle
   double lag_ = 0.0;
   GaugeKernel kernel_;
@@ -107,7 +111,7 @@ FitRows Regression::rows_of(const std::vector<Activity>& activities) const {
     rows.columns = rows.columns.select(keep);
     rows.timing = rows.timing.select(keep);
   }
-  return rows;
+  return groups_.empty() ? rows : merge_columns(rows, groups_);
 }
 
 void Regression::choose_lag() {
@@ -195,6 +199,18 @@ bool Regression::idle_is_unseen() const {
   return norm(outside) < kLeastIdleShare * norm(rows_.columns.column(idle));
 }
 
+/// Makes two phases one column, if some other phase then still stands alone.
+bool Regression::merge(const std::vector<std::size_t>& alike) {
+  auto groups = join_pair(groups_, columns_.size(), alike);
+  if (!groups) return false;
+  groups_ = std::move(*groups);
+  const auto [a, b] = std::minmax(alike[0], alike[1]);
+  names_[a] += " and " + names_[b];
+  names_.erase(names_.begin() + static_cast<std::ptrdiff_t>(b));
+  rows_ = rows_of(activities_);
+  return true;
+}
+
 /// The gate. False if the fit was refused.
 bool Regression::judge() {
   if (!columns_.empty() && idle_is_unseen()) {
@@ -204,31 +220,32 @@ bool Regression::judge() {
     result_.notes.emplace_back(
         "there was no time without a phase: idle power is part of the phases' watts");
   }
-  const Identifiability found = identifiability(rows_);
-  result_.condition = found.condition;
-  const bool refused = !(found.condition <= kWorstCondition) || found.timing > kMostTiming;
-  // The phases first: that two of them are alike says more than that idle time is, too.
-  auto alike = found.alike;
-  std::stable_partition(alike.begin(), alike.end(), [&](const std::vector<std::size_t>& set) {
-    return std::none_of(set.begin(), set.end(),
-                        [&](std::size_t c) { return c >= columns_.size(); });
-  });
-  if (refused) {
-    const bool by_timing = found.condition <= kWorstCondition;
-    refuse(by_timing       ? "the mix of phases changed hardly more than the times of the sensor's "
-                             "updates are known: cannot be told apart"
-           : alike.empty() ? "the phases always ran in the same mix: cannot be told apart"
-                           : describe(alike.front(), names_, true));
-    result_.notes.emplace_back(
-        "vary the mix of phases in blocks of five update periods or more, with idle time between");
+  const std::string way_out =
+      "vary the mix of phases in blocks of five update periods or more, with idle time between";
+  while (true) {
+    Identifiability found = identifiability(rows_);
+    result_.condition = found.condition;
+    phases_first(found, groups_.empty() ? columns_.size() : groups_.size());
+    const std::string why = refusal(found, names_);
+    if (why.empty()) {
+      for (const auto& set : found.alike) result_.notes.push_back(describe(set, names_, false));
+      break;
+    }
+    const bool by_mix = !(found.condition <= kWorstCondition) && !found.alike.empty();
+    if (by_mix && merge(found.alike.front())) {
+      result_.notes.push_back(why);
+      continue;
+    }
+    refuse(why);
+    result_.notes.push_back(way_out);
     return false;
   }
-  for (const auto& set : alike) result_.notes.push_back(describe(set, names_, false));
-  if (found.condition > kSoundCondition) {
+  if (!groups_.empty()) result_.notes.push_back(way_out);
+  if (result_.condition > kSoundCondition) {
     result_.notes.push_back(
         fmt::format("the mix of phases varied little (condition {:.0f}, sound below {:.0f}): "
                     "intervals are wide",
-                    found.condition, kSoundCondition));
+                    result_.condition, kSoundCondition));
   }
   return true;
 }
@@ -242,7 +259,8 @@ void Regression::weigh_rows() {
 }
 
 void Regression::try_interactions() {
-  const std::size_t phases = columns_.size();
+  // Where phases are alike, so is what they do to each other.
+  const std::size_t phases = groups_.empty() ? columns_.size() : 0;
   for (std::size_t a = 0; a < phases; ++a) {
     for (std::size_t b = a + 1; b < phases; ++b) {
       const Activity both = concurrent(activities_[a], activities_[b]);
@@ -284,7 +302,7 @@ void Regression::fit() {
                     "differences between updates",
                     all->durbin_watson));
   }
-  const std::size_t phases = columns_.size();
+  const std::size_t phases = groups_.empty() ? columns_.size() : groups_.size();
   std::vector<bool> stopped(rows_.columns.columns(), false);
   ColouredFit found = *all;
   const auto negative = [&] {
@@ -321,13 +339,26 @@ void Regression::fit() {
 }
 
 void Regression::store(const ColouredFit& all, const std::vector<bool>& stopped) {
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    PhaseCoefficient& phase = result_.phases[columns_[c]];
-    phase.at_bound = stopped[c];
-    phase.watts = by_chance(stopped[c] ? 0.0 : all.x[c], all.half_widths[c]);
-    if (stopped[c]) {
-      phase.reason = fmt::format("{} draws at most {:.3g} W above idle: nothing more can be seen",
-                                 names_[c], all.half_widths[c]);
+  if (groups_.empty()) {
+    for (std::size_t c = 0; c < columns_.size(); ++c) groups_.push_back({c});
+  }
+  for (std::size_t c = 0; c < groups_.size(); ++c) {
+    const double half_width = all.half_widths[c];
+    for (const std::size_t member : groups_[c]) {
+      PhaseCoefficient& phase = result_.phases[columns_[member]];
+      if (groups_[c].size() > 1) {
+        phase.reason = fmt::format(
+            "{} always ran in the same proportion: cannot be told apart; together {:.3g} +- {:.2g} "
+            "W{}",
+            names_[c], stopped[c] ? 0.0 : all.x[c], half_width, with_idle_ ? " above idle" : "");
+        continue;
+      }
+      phase.at_bound = stopped[c];
+      phase.watts = by_chance(stopped[c] ? 0.0 : all.x[c], half_width);
+      if (stopped[c]) {
+        phase.reason = fmt::format("{} draws at most {:.3g} W above idle: nothing more can be seen",
+                                   names_[c], half_width);
+      }
     }
   }
   if (with_idle_) result_.idle_watts = by_chance(all.x.back(), all.half_widths.back());

@@ -43,11 +43,13 @@ struct PhaseFit {
 /// data show. A gauge's watts are fitted to busy shares that went through its smoothing
 /// (info.smoothing; if 0, the likeliest of several). Time outside all columns counts as idle.
 ///
-/// Refuses where the phases cannot be told apart (condition above 100, or a mix that varied hardly
-/// more than the timing of updates is known, as in a loop in step with the sensor); notes what is
-/// uncertain (above 30, or variance inflation above 10). If there is no time without a phase, idle
-/// power is part of the phases' watts. Columns that were busy at once get an interaction of their
-/// own, which is noted, if it is certain not to be 0.
+/// Two phases that cannot be told apart, beside others that can, get no number each: they are
+/// fitted as one column, so that the others keep theirs, and their reason says what they draw
+/// together. Refuses where no phase would stand alone (condition above 100, or a mix that varied
+/// hardly more than the timing of updates is known, as in a loop in step with the sensor); notes
+/// what is uncertain (above 30, or variance inflation above 10). If there is no time without a
+/// phase, idle power is part of the phases' watts. Columns that were busy at once get an
+/// interaction of their own, which is noted, if it is certain not to be 0.
 PhaseFit fit_phases(const SourceInfo& info, const TraceView& trace, const BusyTimeline& timeline,
                     const std::vector<Window>& idle, const std::vector<Window>& loaded);
 

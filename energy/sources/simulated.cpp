@@ -1,5 +1,7 @@
 #include "energy/sources/simulated.h"
 
+#include "energy/sampling/low_pass.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -61,13 +63,16 @@ double SimulatedSource::smoothed(Seconds time) {
   if (!opened_) {
     filtered_ = mean_power(time - window, time);
   } else {
+    // What lies further back is below rounding: after hours, a smoothing of milliseconds would take
+    // more steps than there is time for.
+    const Seconds begin = std::max(filtered_until_, time - tau * 40.0);
     // Exact for power that is constant within a step.
-    const double steps = std::max(1.0, std::ceil((time - filtered_until_) / (tau / 32.0)));
-    const Seconds step = (time - filtered_until_) / steps;
-    const double share = -std::expm1(-(step / tau));
-    for (int i = 0; i < static_cast<int>(steps); ++i) {
-      const Seconds from = filtered_until_ + step * i;
-      filtered_ += (mean_power(from, from + step) - filtered_) * share;
+    const double steps = std::max(1.0, std::ceil((time - begin) / (tau / 32.0)));
+    const Seconds step = (time - begin) / steps;
+    for (int i = 0; step.value > 0 && i < static_cast<int>(steps); ++i) {
+      const Seconds from = begin + step * i;
+      const double watts = mean_power(from, from + step);
+      filtered_ = low_pass_step(filtered_, watts, step.value, tau.value);
     }
   }
   filtered_until_ = time;
