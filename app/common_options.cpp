@@ -1,6 +1,8 @@
 #include "app/common_options.h"
 
 #include "app/exit_code.h"
+#include "app/ray_options.h"
+#include "scene/ray_settings.h"
 #include "scene/sample_scenes.h"
 #include "scene/scene_file.h"
 #include "scene/text_suggestion.h"
@@ -78,7 +80,9 @@ std::string setting_problem(accel::StructureSpec& spec, std::string_view key,
 
 /// A preference that nothing will read is misspelt.
 void warn_of_unknown(const scene::Preference& preference, Terminal& terminal) {
-  std::vector<std::string_view> known{"structure", "policy", "device", "threads"};
+  std::vector<std::string_view> known{"structure", "policy", "device", "threads", "intersection"};
+  const auto rays = scene::ray_setting_keys();
+  known.insert(known.end(), rays.begin(), rays.end());
   known.insert(known.end(), accel::setting_keys().begin(), accel::setting_keys().end());
   if (std::find(known.begin(), known.end(), preference.key) != known.end()) return;
   // Unknown keys of a known structure are errors where they are applied.
@@ -140,6 +144,14 @@ void add_structure_options(CLI::App& command, CommonOptions& options, bool many)
                   fmt::format("Structure setting key=value (repeatable; docs/settings.md): {}",
                               fmt::join(accel::setting_keys(), ", ")))
       ->allow_extra_args(false);
+  std::vector<std::string_view> modes;
+  for (const auto mode : accel::all_intersection_modes()) modes.push_back(accel::to_string(mode));
+  auto* intersection = command.add_option(
+      "--intersection", options.intersections,
+      fmt::format("How a ray is held against a triangle: {}{} (default: precise)",
+                  fmt::join(modes, ", "), many ? "; several separated by commas" : ""));
+  intersection->delimiter(',')->allow_extra_args(false);
+  if (!many) intersection->expected(1);
   command.add_option("--memory", options.memory,
                      "pool: reuse memory from build to build (default); malloc: allocate afresh");
 }
@@ -172,12 +184,16 @@ std::vector<accel::StructureSpec> chosen_structures(const CommonOptions& options
   if (kinds.empty()) kinds = kinds_from_scene(scene);
   if (kinds.empty()) kinds = default_kinds();
 
+  const std::vector<accel::IntersectionMode> modes = chosen_intersections(options, scene);
   std::vector<accel::StructureSpec> specs;
   for (const accel::StructureKind kind : kinds) {
     accel::StructureSpec spec = accel::default_spec(kind);
     spec.memory = *memory;
     apply_settings(spec, options, scene);
-    specs.push_back(spec);
+    for (const accel::IntersectionMode mode : modes) {
+      spec.intersection = mode;
+      specs.push_back(spec);
+    }
   }
   return specs;
 }

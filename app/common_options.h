@@ -21,7 +21,12 @@ struct CommonOptions {
   std::vector<std::string> structures;   ///< names; empty or "all": all but brute
   std::vector<std::string> settings;     ///< "key=value", e.g. "grid.cells_per_axis=64"
   std::string memory = "pool";
-  int threads = 0;  ///< 0: all
+  int threads = 0;                         ///< 0: all
+  std::vector<std::string> intersections;  ///< names of modes; empty: the scene's own
+  // As scene::apply_ray_setting() takes them; empty: the scene's own (app/ray_options.h).
+  std::string rays;
+  std::string samples;
+  std::string depth;
 };
 
 void add_output_options(CLI::App& command, CommonOptions& options);
@@ -35,7 +40,8 @@ scene::Scene open_scene(const std::string& name_or_path, const CommonOptions& op
                         Terminal& terminal);
 
 /// The structures asked for: --structure, else the scene's own preference, else all but brute;
-/// with settings from the scene's preferences, then from --set, then --memory. Throws UsageError
+/// with settings from the scene's preferences, then from --set, then --memory; each once for every
+/// intersection mode. Throws UsageError
 /// (with the nearest name) or scene::InputError (for a wrong preference of the scene file).
 std::vector<accel::StructureSpec> chosen_structures(const CommonOptions& options,
                                                     const scene::Scene& scene);

@@ -25,11 +25,14 @@ ConfigurationCells::ConfigurationCells(const std::vector<energy::SummaryRow>& ro
       devices_(differs(rows, "device", "cpu")),
       memory_(differs(rows, "memory", "pool")),
       cases_(differs(rows, "update_case", "real")),
+      intersections_(differs(rows, "intersection", "precise")),
+      rays_(differs(rows, "rays", "none")),
+      samples_(differs(rows, "samples", "1")),
       repeats_(differs(rows, "repeat", "1")) {}
 
 void ConfigurationCells::add_columns(TextTable& table) {
   for (const char* title : {"group", "scene", "device", "test", "structure", "policy", "case",
-                            "memory", "size", "repeat"}) {
+                            "memory", "intersection", "rays", "samples", "size", "repeat"}) {
     table.add_column(title, TextTable::Align::left);
   }
 }
@@ -48,6 +51,9 @@ std::vector<std::string> ConfigurationCells::cells(
           value("policy"),
           value("update_case", cases_),
           value("memory", memory_),
+          value("intersection", intersections_),
+          value("rays", rays_),
+          value("samples", samples_),
           width.empty() ? std::string() : width + "x" + value("height"),
           value("repeat", repeats_)};
 }

@@ -24,6 +24,9 @@ class ConfigurationCells {
   bool devices_;
   bool memory_;
   bool cases_;
+  bool intersections_;
+  bool rays_;
+  bool samples_;
   bool repeats_;
 };
 

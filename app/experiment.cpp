@@ -4,6 +4,7 @@
 #include "app/energy_rows.h"
 #include "app/machine_log.h"
 #include "app/number_text.h"
+#include "app/ray_report.h"
 #include "energy/machine.h"
 #include "energy/runner.h"
 
@@ -273,6 +274,7 @@ void Experiment::attribute_energy(const energy::Measurement& measured, Result& r
   result.notes = total.notes;
   result.phases =
       phase_rows(total, "total", sources_.provenance.origin, result.summary.configuration);
+  add_ray_energy(result.phases, result.summary);
   for (const energy::PhaseRow& row : result.phases) writer_->add(row);
   for (const std::string& sentence : total.notes) note(sentence);
 }

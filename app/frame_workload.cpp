@@ -58,6 +58,7 @@ void FrameWorkload::operation(energy::PhaseLog& log) {
 }
 
 void FrameWorkload::init_renderer() {
+  renderer_->set_rays(spec_.rays);
   renderer_->init({spec_.scene.get(), &triangles_, structure_.get()});
 }
 
@@ -66,11 +67,25 @@ void FrameWorkload::render(energy::PhaseLog& log) {
     const auto mark = log.mark(Phase::render);
     renderer_->draw(spec_.scene->camera, spec_.size.width, spec_.size.height);
   }
-  if (!counting_ || !transfers()) return;
-  const std::optional<double> seconds = renderer_->last_draw_s();
+  if (!counting_) return;
   ++totals_.draws;
+  count_rays();
+  if (!transfers()) return;
+  const std::optional<double> seconds = renderer_->last_draw_s();
   totals_.draws_timed = totals_.draws_timed && seconds.has_value();
   totals_.render_s += seconds.value_or(0.0);
+}
+
+void FrameWorkload::count_rays() {
+  const auto rays = renderer_->last_rays();
+  totals_.rays_known = totals_.rays_known && rays.has_value();
+  if (!rays) return;
+  for (std::size_t i = 0; i < scene::kRayKinds; ++i) {
+    const renderer::RayFigures::Kind& kind = rays->kinds[i];
+    totals_.rays[i] += static_cast<double>(kind.rays);
+    totals_.ray_s[i] += kind.seconds.value_or(0.0);
+    totals_.rays_timed = totals_.rays_timed && (kind.rays == 0 || kind.seconds.has_value());
+  }
 }
 
 void FrameWorkload::send(energy::PhaseLog& log) {
@@ -156,13 +171,30 @@ std::string FrameWorkload::traced_name() const {
 }
 
 SceneWorkload::RayFigures FrameWorkload::ray_figures() const {
-  if (!structure_) return {{}, {}, true};
+  if (!structure_) return {{}, {}, true, {}};
   const scene::Camera& camera = spec_.scene->camera;
   // A device's hits are its own: the host's structure may be of an earlier time.
   const std::uint64_t hits = tracer_ != nullptr ? count_hits(*tracer_, camera, spec_.size)
                                                 : count_hits(*structure_, camera, spec_.size);
-  return {static_cast<double>(spec_.size.width) * spec_.size.height, static_cast<double>(hits),
-          true};
+  RayFigures figures{static_cast<double>(spec_.size.width) * spec_.size.height,
+                     static_cast<double>(hits), true};
+  if (!totals_.rays_known || totals_.draws == 0) return figures;
+  double all = 0.0;
+  double all_s = 0.0;
+  for (std::size_t i = 0; i < scene::kRayKinds; ++i) {
+    all += totals_.rays[i];
+    all_s += totals_.ray_s[i];
+  }
+  const auto draws = static_cast<double>(totals_.draws);
+  figures.rays = all / draws;
+  for (std::size_t i = 0; i < scene::kRayKinds; ++i) {
+    figures.kinds[i].rays = totals_.rays[i] / draws;
+    const bool timed = totals_.rays_timed && all_s > 0.0;
+    if (timed) figures.kinds[i].share = totals_.ray_s[i] / all_s;
+    // One kind alone took all of the time, whoever measured it.
+    if (!timed && totals_.rays[i] == all) figures.kinds[i].share = 1.0;
+  }
+  return figures;
 }
 
 SceneWorkload::DeviceFigures FrameWorkload::device_figures() const {
@@ -174,7 +206,7 @@ SceneWorkload::DeviceFigures FrameWorkload::device_figures() const {
     figures.transfer_unknown = !totals_.transfers_timed;
     if (totals_.transfers_timed) figures.transfer_s = totals_.transfer_s / totals_.operations;
   }
-  if (totals_.draws > 0) {
+  if (totals_.draws > 0 && transfers()) {
     figures.render_unknown = !totals_.draws_timed;
     if (totals_.draws_timed) figures.render_s = totals_.render_s / totals_.operations;
   }

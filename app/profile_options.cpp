@@ -1,6 +1,7 @@
 #include "app/profile_options.h"
 
 #include "app/exit_code.h"
+#include "app/ray_options.h"
 #include "scene/sample_scenes.h"
 #include "scene/text_suggestion.h"
 
@@ -105,6 +106,7 @@ class ScenePlan {
     spec.scene = scene_;
     spec.size = parse_size(options_.size);
     spec.threads = chosen_threads(options_, *scene_);
+    spec.rays = chosen_rays(options_, *scene_);
     for (const Device device : devices_) {
       spec.device = device;
       if (!traces_rays(device)) {

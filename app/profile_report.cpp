@@ -5,6 +5,7 @@
 #include "app/json_text.h"
 #include "app/number_text.h"
 #include "app/profile_table.h"
+#include "app/ray_report.h"
 #include "app/session_input.h"
 #include "energy/session_columns.h"
 #include "energy/session_energy_columns.h"
@@ -119,7 +120,7 @@ std::string frame_table(const std::vector<SummaryRow>& rows) {
 bool is_text(std::string_view column) {
   for (const std::string_view name :
        {"group", "scene", "device", "structure", "policy", "test", "memory", "update_case",
-        "source", "energy_provenance", "phase", "method", "note"}) {
+        "intersection", "rays", "source", "energy_provenance", "phase", "method", "note"}) {
     if (column == name) return true;
   }
   return false;
@@ -183,7 +184,7 @@ std::string report_text(const ProfileReport& report) {
                       : fmt::format(" ({})", energy::to_string(report.state)));
   if (report.gpu) text += fmt::format("GPU: {}\n", report.gpu->name);
   if (report.rows.empty()) return text + "\nNothing was measured.\n";
-  return text + build_table(report.rows) + frame_table(report.rows) +
+  return text + build_table(report.rows) + frame_table(report.rows) + ray_table(report.rows) +
          transfer_text(report.transfers, report.rows) + energy_text(report);
 }
 

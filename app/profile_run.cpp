@@ -143,16 +143,17 @@ std::string rendering_threads(const std::vector<WorkloadSpec>& specs) {
   return text;
 }
 
-ProfileResult run_profile(const ProfileOptions& options, const WorkloadTools& tools,
-                          const std::atomic<bool>& stop, Terminal& terminal) {
-  const std::vector<WorkloadSpec> specs = list_workloads(options, tools, terminal);
+ProfileOutcome measure_profile(const ProfileOptions& options, const std::vector<WorkloadSpec>& specs,
+                               const WorkloadTools& tools, const std::atomic<bool>& stop,
+                               Terminal& terminal) {
   const std::optional<GpuInfo> gpu = open_gpu_for(specs, tools, terminal);
   const energy::SessionInfo info = session_info(options, specs, gpu);
   std::string name = info.scenes.front();
   if (info.scenes.size() > 1) name += fmt::format("-and-{}-more", info.scenes.size() - 1);
 
   Experiment experiment({info, options.measuring, tools}, stop, terminal);
-  ProfileReport report;
+  ProfileOutcome outcome;
+  ProfileReport& report = outcome.report;
   report.folder = make_session_folder(options.out, info.started_utc, name);
   report.sensor = experiment.info().sensor;
   report.gpu = gpu;
@@ -165,7 +166,16 @@ ProfileResult run_profile(const ProfileOptions& options, const WorkloadTools& to
   });
   report.transfers = write_transfers(report.folder, report.rows, report.phases);
   report.sampling = experiment.sampling_cost();
-  return {ending.code, options.json ? report_json(report) : report_text(report)};
+  outcome.code = ending.code;
+  return outcome;
+}
+
+ProfileResult run_profile(const ProfileOptions& options, const WorkloadTools& tools,
+                          const std::atomic<bool>& stop, Terminal& terminal) {
+  const std::vector<WorkloadSpec> specs = list_workloads(options, tools, terminal);
+  const ProfileOutcome outcome = measure_profile(options, specs, tools, stop, terminal);
+  return {outcome.code,
+          options.json ? report_json(outcome.report) : report_text(outcome.report)};
 }
 
 }  // namespace encore::app

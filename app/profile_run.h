@@ -2,6 +2,7 @@
 
 #include "app/exit_code.h"
 #include "app/profile_options.h"
+#include "app/profile_report.h"
 #include "app/terminal.h"
 #include "app/workloads.h"
 #include "energy/session.h"
@@ -30,6 +31,17 @@ std::optional<GpuInfo> open_gpu_for(const std::vector<WorkloadSpec>& specs,
 /// Threads that render on the CPU: one number, or "2 (toys), 4 (bunny)" where scenes ask for
 /// different ones; empty if nothing renders there.
 std::string rendering_threads(const std::vector<WorkloadSpec>& specs);
+
+/// How a run ended, and everything that it measured.
+struct ProfileOutcome {
+  ExitCode code = ExitCode::ok;
+  ProfileReport report;
+};
+
+/// Measures these configurations as run_profile() does, options telling how.
+ProfileOutcome measure_profile(const ProfileOptions& options, const std::vector<WorkloadSpec>& specs,
+                               const WorkloadTools& tools, const std::atomic<bool>& stop,
+                               Terminal& terminal);
 
 /// Measures everything that the options ask for, one configuration after the other, and writes the
 /// session as it goes. Once `stop` is set it ends after the current operation with what it has

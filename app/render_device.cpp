@@ -23,11 +23,12 @@ std::optional<double> milliseconds(const std::optional<double>& seconds) {
 }  // namespace
 
 RenderDevice::RenderDevice(Device device, const renderer::RenderInput& input, GpuContext& gpu,
-                           int threads)
+                           int threads, const scene::RaySettings& rays)
     : input_(input),
       renderer_(make_renderer(device, threads, gpu)),
       tracer_(dynamic_cast<renderer::Tracer*>(renderer_.get())) {
   renderer_->set_cancel_flag(&interrupted);
+  renderer_->set_rays(rays);
   if (const auto* cpu = dynamic_cast<const renderer::CpuTracer*>(renderer_.get())) {
     figures_.threads = cpu->threads();
   }
@@ -59,6 +60,7 @@ bool RenderDevice::run(const std::function<void()>& draw_once) {
   draw_once();
   figures_.draw_ms = milliseconds_since(start);
   figures_.hits = renderer_->last_hits();
+  figures_.rays = renderer_->last_rays();
   return renderer_->complete();
 }
 

@@ -31,14 +31,16 @@ struct DrawFigures {
   std::optional<double> warm_up_ms;
   double draw_ms = 0.0;                  ///< after the warm-up, if there is one
   std::optional<double> draw_device_ms;  ///< by the device's clock
-  std::optional<std::uint64_t> hits;
+  std::optional<std::uint64_t> hits;     ///< of the camera's rays
+  std::optional<renderer::RayFigures> rays;
 };
 
 /// A device with a scene on it, ready to draw.
 class RenderDevice {
  public:
   /// `input` must outlive the object. Throws GlUnavailable or GlError.
-  RenderDevice(Device device, const renderer::RenderInput& input, GpuContext& gpu, int threads);
+  RenderDevice(Device device, const renderer::RenderInput& input, GpuContext& gpu, int threads,
+               const scene::RaySettings& rays);
 
   /// Each of these draws twice where the first time takes longer, and notes the second. False if
   /// it was interrupted; throws std::invalid_argument for a camera or size that nothing can draw.

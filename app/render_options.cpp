@@ -2,6 +2,7 @@
 
 #include "app/exit_code.h"
 #include "app/gpu_device.h"
+#include "app/ray_options.h"
 #include "renderer/trace_defines.h"
 #include "scene/model_input.h"
 
@@ -154,6 +155,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_structure_options(command, options, false);
   add_output_options(command, options);
   add_thread_option(command, options);
+  add_ray_options(command, options);
   command.add_option("--out,-o", options.out, "The PNG file to write")->required();
   command.add_option("--size", options.size, "Side, or WIDTHxHEIGHT, in pixels (default 512)");
   command.add_option("--time", options.time_s, "Time of the animation in seconds (default 0)");

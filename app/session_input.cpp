@@ -13,8 +13,15 @@ namespace encore::app {
 
 namespace {
 
+/// What plain ray casting says of itself.
+bool is_plain(const energy::KeyValue& part) {
+  return (part.key == "intersection" && part.value == "precise") ||
+         (part.key == "rays" && part.value == "none") ||
+         (part.key == "samples" && part.value == "1");
+}
+
 bool tells_apart(const energy::KeyValue& part) {
-  return !part.value.empty() && part.key != "repeat" && part.key != "triangles";
+  return !part.value.empty() && part.key != "repeat" && part.key != "triangles" && !is_plain(part);
 }
 
 }  // namespace

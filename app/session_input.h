@@ -21,7 +21,8 @@ std::string configuration_value(const std::vector<energy::KeyValue>& configurati
 std::optional<double> counter_value(const energy::SummaryRow& row, std::string_view name);
 
 /// What identifies a configuration across sessions: all its parts that have a value, but for the
-/// repeat and the number of triangles (which may change with time).
+/// repeat, the number of triangles (which may change with time), and what says of plain ray casting
+/// that it is plain (older sessions do not).
 std::vector<energy::KeyValue> configuration_identity(
     const std::vector<energy::KeyValue>& configuration);
 

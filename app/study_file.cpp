@@ -3,6 +3,7 @@
 #include "app/device.h"
 #include "app/exit_code.h"
 #include "energy/battery_life/battery_toml.h"
+#include "scene/ray_settings.h"
 #include "scene/shipped_files.h"
 #include "scene/text_suggestion.h"
 #include "scene/toml_reading.h"
@@ -89,6 +90,13 @@ std::string setting_problem(const std::string& text) {
   }
   if (problem.starts_with("unknown")) problem += scene::did_you_mean(key, accel::setting_keys());
   return problem;
+}
+
+Check ray_setting(std::string_view key) {
+  return [key](const std::string& word) {
+    scene::RaySettings rays;
+    return scene::apply_ray_setting(rays, key, word);
+  };
 }
 
 /// A list of words (numbers are words, too), or a single one; each must pass the check.
@@ -199,6 +207,12 @@ StudyGroup read_group(TomlTable& table) {
   group.update_cases = words(table, "update_cases",
                              one_of("update case", {"real", "best", "average", "worst"}), {""});
   group.settings = words(table, "set", setting_problem);
+  std::vector<std::string_view> modes;
+  for (const auto mode : accel::all_intersection_modes()) modes.push_back(accel::to_string(mode));
+  group.intersections = words(table, "intersections", one_of("intersection mode", modes));
+  group.rays = words(table, "rays", ray_setting("rays"), {""});
+  group.samples = words(table, "samples", ray_setting("samples"), {""});
+  group.depth = words(table, "depth", ray_setting("depth"), {""}).front();
   constexpr std::uint64_t kMostThreads = std::numeric_limits<int>::max();
   group.threads = static_cast<int>(std::min(whole(table, "threads", 0).value_or(0), kMostThreads));
   refuse_unknown_keys(table);

@@ -20,10 +20,14 @@ struct StudyGroup {
   std::vector<std::string> structures;
   std::vector<std::string> policies;
   std::vector<std::string> tests;
-  std::vector<std::string> sizes;         ///< "256" or "640x480"
-  std::vector<std::string> memory;        ///< "pool", "malloc"
-  std::vector<std::string> update_cases;  ///< empty: real
-  std::vector<std::string> settings;      ///< "key=value"
+  std::vector<std::string> sizes;          ///< "256" or "640x480"
+  std::vector<std::string> memory;         ///< "pool", "malloc"
+  std::vector<std::string> update_cases;   ///< empty: real
+  std::vector<std::string> settings;       ///< "key=value"
+  std::vector<std::string> intersections;  ///< names of modes; empty: the scene's own
+  std::vector<std::string> rays;           ///< each as --rays takes it; {""}: the scene's own
+  std::vector<std::string> samples;        ///< likewise
+  std::string depth;                       ///< likewise
   int threads = 0;
 };
 

@@ -50,7 +50,37 @@ ProfileOptions options_of(const StudyGroup& group, const Study& study, const std
   options.tests = {test};
   options.settings = group.settings;
   options.threads = group.threads;
+  options.intersections = group.intersections;
+  options.depth = group.depth;
   return options;
+}
+
+/// What of a group's lists a test goes through one by one: a build has no picture, so there it is
+/// one combination whatever the lists hold.
+std::vector<ProfileOptions> spread(const StudyGroup& group, const Study& study,
+                                   const std::string& test) {
+  const std::vector<std::string> no_size{"256"};
+  const std::vector<std::string> no_rays{""};
+  const bool pictures = renders(test);
+  std::vector<ProfileOptions> all;
+  ProfileOptions options = options_of(group, study, test);
+  for (const std::string& size : pictures ? group.sizes : no_size) {
+    options.size = size;
+    for (const std::string& rays : pictures ? group.rays : no_rays) {
+      options.rays = rays;
+      for (const std::string& samples : pictures ? group.samples : no_rays) {
+        options.samples = samples;
+        for (const std::string& memory : group.memory) {
+          options.memory = memory;
+          for (const std::string& update_case : group.update_cases) {
+            options.update_case = update_case;
+            all.push_back(options);
+          }
+        }
+      }
+    }
+  }
+  return all;
 }
 
 /// For a table's cell: line breaks and what they indent become single blanks.
@@ -122,28 +152,18 @@ StudyMatrix spell_out(const Study& study, const WorkloadTools& tools, Terminal& 
     std::vector<WorkloadSpec> specs;
     const std::vector<std::string> all{"build", "static", "dynamic"};
     for (const std::string& test : group.tests.empty() ? all : group.tests) {
-      ProfileOptions options = options_of(group, study, test);
-      // A build has no picture, and only a refit has an update case.
-      const std::vector<std::string> no_size{"256"};
-      for (const std::string& size : renders(test) ? group.sizes : no_size) {
-        for (const std::string& memory : group.memory) {
-          for (const std::string& update_case : group.update_cases) {
-            options.size = size;
-            options.memory = memory;
-            options.update_case = update_case;
-            try {
-              for (WorkloadSpec& spec : list_workloads(options, tools, terminal, open)) {
-                spec.group = group.name;
-                specs.push_back(std::move(spec));
-              }
-            } catch (const scene::InputError& error) {
-              throw scene::InputError(
-                  fmt::format("{}: group {}: {}", group.place, group.name, error.what()));
-            } catch (const UsageError& error) {
-              // What a test cannot be applied to is told, and the rest goes on.
-              matrix.left_out.push_back({group.name, 0, error.what()});
-            }
+      for (const ProfileOptions& options : spread(group, study, test)) {
+        try {
+          for (WorkloadSpec& spec : list_workloads(options, tools, terminal, open)) {
+            spec.group = group.name;
+            specs.push_back(std::move(spec));
           }
+        } catch (const scene::InputError& error) {
+          throw scene::InputError(
+              fmt::format("{}: group {}: {}", group.place, group.name, error.what()));
+        } catch (const UsageError& error) {
+          // What a test cannot be applied to is told, and the rest goes on.
+          matrix.left_out.push_back({group.name, 0, error.what()});
         }
       }
     }

@@ -1,5 +1,7 @@
 #include "app/workload_frames.h"
 
+#include "energy/clock.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +62,11 @@ void DeviceUpdateWorkload::prepare() {
 }
 
 DynamicWorkload::DynamicWorkload(WorkloadSpec spec, const WorkloadTools& tools)
-    : FrameWorkload(std::move(spec), tools), step_s_(frame_step_s(*spec_.scene)) {}
+    : FrameWorkload(std::move(spec), tools),
+      step_s_(frame_step_s(*spec_.scene)),
+      auto_(accel::auto_rule(spec_.structure.settings)) {
+  weights_.fill(1.0);
+}
 
 double DynamicWorkload::time_of(std::uint64_t frame) const {
   // The middle of the step: rounding cannot move it over the border of a sequence's frame.
@@ -68,15 +74,18 @@ double DynamicWorkload::time_of(std::uint64_t frame) const {
 }
 
 UpdateAction DynamicWorkload::reaction(TriangleChange change) const {
-  return structure_ ? accel::decide(spec_.policy, *structure_, change) : UpdateAction::none;
+  return structure_ ? accel::decide(spec_.policy, *structure_, change, auto_) : UpdateAction::none;
 }
 
-void DynamicWorkload::start() {
+double DynamicWorkload::start() {
   frame_ = 0;
   pending_ = TriangleChange::none;
   go_to(time_of(0));
+  const energy::SteadyClock clock;
+  const energy::Seconds begin = clock.now();
   if (structure_) build();
   built_over_ = triangles_.triangles.size();
+  return (clock.now() - begin).value;
 }
 
 void DynamicWorkload::prepare() {
@@ -85,8 +94,46 @@ void DynamicWorkload::prepare() {
   check("build");
   if (!structure_ || spec_.policy == Policy::fixed) return;
   check_later_frame();
-  start();
+  start_timed();
+}
+
+void DynamicWorkload::start_timed() {
+  const double building = start();
+  const energy::SteadyClock clock;
+  const energy::Seconds begin = clock.now();
   refresh_unmarked();
+  if (spec_.policy != Policy::automatic) return;
+  const double sending = transfers() ? (clock.now() - begin).value : 0.0;
+  auto_ = accel::AutoPolicy(accel::auto_rule(spec_.structure.settings));
+  auto_.observe_build(weights_[Phase::build] * building + weights_[Phase::transfer] * sending);
+}
+
+void DynamicWorkload::begin_measuring() {
+  FrameWorkload::begin_measuring();
+  auto_.clear_figures();
+}
+
+void DynamicWorkload::set_phase_weights(const energy::PerPhase<double>& weights) {
+  weights_ = weights;
+  auto_ = accel::AutoPolicy(accel::auto_rule(spec_.structure.settings));
+}
+
+std::optional<accel::AutoFigures> DynamicWorkload::auto_figures() const {
+  if (!structure_ || spec_.policy != Policy::automatic) return std::nullopt;
+  return auto_.figures();
+}
+
+void DynamicWorkload::learn(const energy::PhaseLog& log, std::size_t before) {
+  if (!structure_ || spec_.policy != Policy::automatic) return;
+  energy::PerPhase<double> cost{};
+  energy::PerPhase<bool> done{};
+  for (const energy::PhaseSpan& span : log.spans().subspan(before)) {
+    cost[span.phase] += weights_[span.phase] * (span.end - span.start).value;
+    done[span.phase] = true;
+  }
+  if (done[Phase::build]) auto_.observe_build(cost[Phase::build] + cost[Phase::transfer]);
+  if (done[Phase::update]) auto_.observe_update(cost[Phase::update] + cost[Phase::transfer]);
+  if (done[Phase::render]) auto_.observe_frame(cost[Phase::render], structure_->decay());
 }
 
 void DynamicWorkload::check_later_frame() {
@@ -133,9 +180,11 @@ void DynamicWorkload::follow(energy::PhaseLog& log) {
 }
 
 void DynamicWorkload::frame(energy::PhaseLog& log) {
+  const std::size_t before = log.spans().size();
   animate(log);
   follow(log);
   render(log);
+  learn(log, before);
 }
 
 std::vector<Phase> DynamicWorkload::separable() const {
@@ -153,23 +202,25 @@ std::vector<Phase> DynamicWorkload::separable() const {
 }
 
 void DynamicWorkload::run_alone(Phase phase, energy::PhaseLog& log) {
+  const std::size_t before = log.spans().size();
   switch (phase) {
     case Phase::animate:
       animate(log);
       if (!transfers()) follow(log);
-      return;
+      return learn(log, before);
     case Phase::build:
       build_noted(log);
       if (!transfers()) send(log);
-      return;
+      return learn(log, before);
     case Phase::update:
+      // Nothing moved: what this costs says nothing of an update that is needed.
       update_marked(log);
       if (!transfers()) send(log);
       return;
     case Phase::transfer:
       animate(log);
       follow(log);
-      return;
+      return learn(log, before);
     case Phase::render:
       render(log);
       return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "accel/auto_policy.h"
 #include "app/workloads.h"
 #include "renderer/renderer.h"
 
@@ -12,7 +13,7 @@ class FrameWorkload : public SceneWorkload {
   FrameWorkload(WorkloadSpec spec, const WorkloadTools& tools);
 
   void operation(energy::PhaseLog& log) final;
-  void begin_measuring() final { totals_ = {}; }
+  void begin_measuring() override { totals_ = {}; }
 
  protected:
   /// One operation.
@@ -47,6 +48,8 @@ class FrameWorkload : public SceneWorkload {
   void fit_unmarked();
 
  private:
+  void count_rays();
+
   /// Work of the device, summed up over operations.
   struct Totals {
     double operations = 0.0;
@@ -56,7 +59,11 @@ class FrameWorkload : public SceneWorkload {
     std::uint64_t draws = 0;
     double transfer_s = 0.0;
     double render_s = 0.0;
+    std::array<double, scene::kRayKinds> rays{};
+    std::array<double, scene::kRayKinds> ray_s{};
     bool transfers_timed = true;
+    bool rays_known = true;  ///< of every draw, by kind
+    bool rays_timed = true;
     bool draws_timed = true;
   };
 
@@ -91,9 +98,10 @@ class StaticWorkload final : public FrameWorkload {
 /// Plays the animation frame by frame at a fixed step, so that every run, however fast the machine,
 /// sees the same frames: 1/30 s, or the frame rate of a scene that only shows frame sequences. The
 /// structure is built, updated or left alone as the policy says (accel::decide), and left alone
-/// whatever the policy when no triangle changed. To a device with copies, what changed is sent
-/// after a build or an update on the host; where the device updates its own copy, the triangles are
-/// sent before.
+/// whatever the policy when no triangle changed. Policy::automatic learns from the times of the
+/// phases of each frame; sending counts as part of the build or update that made it necessary. To a
+/// device with copies, what changed is sent after a build or an update on the host; where the
+/// device updates its own copy, the triangles are sent before.
 class DynamicWorkload final : public FrameWorkload {
  public:
   DynamicWorkload(WorkloadSpec spec, const WorkloadTools& tools);
@@ -103,6 +111,14 @@ class DynamicWorkload final : public FrameWorkload {
   /// true. A device draws from copies, which stay true to an earlier time; there it is `transfer`
   /// that comes with everything before and after it, so that it really has something to send.
   void run_alone(energy::Phase phase, energy::PhaseLog& log) override;
+  void begin_measuring() override;
+
+  /// What a second of each phase costs Policy::automatic from now on: watts, above idle, where they
+  /// are known, so that it weighs joules; all 1 (the start) weighs seconds. What was learned in
+  /// another unit is forgotten; prepare() measures the build anew.
+  void set_phase_weights(const energy::PerPhase<double>& weights);
+  /// Of the measured operations; nothing under other policies.
+  [[nodiscard]] std::optional<accel::AutoFigures> auto_figures() const;
 
  protected:
   /// Throws std::runtime_error if the triangle count changes under Policy::fixed.
@@ -119,10 +135,17 @@ class DynamicWorkload final : public FrameWorkload {
   [[nodiscard]] double time_of(std::uint64_t frame) const;
   /// What the policy makes of a change, without doing it.
   [[nodiscard]] accel::UpdateAction reaction(scene::TriangleChange change) const;
-  void start();
+  /// Back to the first frame; returns the seconds that the build took.
+  double start();
+  /// The same, sends it, and tells the policy what the build and sending it cost.
+  void start_timed();
+  /// Tells the policy what the phases cost that ended since the log held `before`.
+  void learn(const energy::PhaseLog& log, std::size_t before);
   void check_later_frame();
 
   double step_s_;
+  accel::AutoPolicy auto_;
+  energy::PerPhase<double> weights_{};
   std::uint64_t frame_ = 0;
   std::size_t built_over_ = 0;  ///< triangles that the structure was last built over
   /// What changed since the structure last followed.

@@ -9,9 +9,11 @@
 #include "app/gpu_device.h"
 #include "energy/workload.h"
 #include "renderer/renderer.h"
+#include "scene/ray_settings.h"
 #include "scene/scene.h"
 #include "scene/triangles.h"
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -59,6 +61,7 @@ struct WorkloadSpec {
   std::string group;         ///< of the study it belongs to; empty outside studies
   std::uint32_t repeat = 1;  ///< which repeat of the same configuration this is, from 1
   int threads = 0;           ///< for rendering; 0: all
+  scene::RaySettings rays;   ///< of the tests that render, where rays are traced
 };
 
 /// For people: "toys, bvh-median, gpu, dynamic (refit), 256x256"; the CPU goes without saying.
@@ -96,11 +99,19 @@ class SceneWorkload : public energy::Workload {
  protected:
   /// What a test that renders adds to the figures.
   struct RayFigures {
-    std::optional<double> rays;  ///< camera rays an operation
-    std::optional<double> hits;  ///< of the last frame
+    std::optional<double> rays;  ///< of all kinds, an operation
+    std::optional<double> hits;  ///< of the last frame's camera rays
     bool pixels = false;         ///< whether there is a picture
+    /// Of each kind: rays an operation, and the share of the render phase's time that they took.
+    struct Kind {
+      std::optional<double> rays{};
+      std::optional<double> share{};
+    };
+    std::array<Kind, scene::kRayKinds> kinds{};
   };
   [[nodiscard]] virtual RayFigures ray_figures() const { return {}; }
+  /// Policy::automatic: frames in which a rebuild now would pay back, where that is known.
+  [[nodiscard]] virtual std::optional<double> break_even_frames() const { return std::nullopt; }
   /// What a device adds that works on copies. Means over the measured operations.
   struct DeviceFigures {
     std::optional<double> uploaded_bytes;
@@ -138,6 +149,8 @@ class SceneWorkload : public energy::Workload {
   std::unique_ptr<accel::AccelerationStructure> structure_;  ///< null where no rays are traced
 
  private:
+  static void append_ray_counters(const RayFigures& rays, energy::Seconds render,
+                                  std::vector<energy::Counter>& counters);
   void append_structure_counters(std::vector<energy::Counter>& counters) const;
 };
 

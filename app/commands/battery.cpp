@@ -1,6 +1,7 @@
 #include "app/battery_report.h"
 #include "app/commands/commands.h"
 #include "app/common_options.h"
+#include "app/time_constant_report.h"
 #include "energy/battery_life/battery_toml.h"
 #include "energy/battery_life/present.h"
 #include "energy/session_csv.h"
@@ -26,6 +27,8 @@ struct BatteryOptions : CommonOptions {
   std::string model = "all";
   std::string sensor_root = "/";
   bool steps = false;
+  std::string csv;
+  std::string plot;
 };
 
 /// "30", "30±1" or "30+-1": watts, with the half-width of their interval.
@@ -121,18 +124,26 @@ ExitCode print_battery(const BatteryOptions& options) {
   report.models = parse_models(options.model);
   if (has_load) report.cases = chosen_loads(options, terminal);
   report.battery = chosen_battery(options, terminal);
-  std::vector<energy::StepTable> tables;
+  StepStudy study;
   if (options.steps) {
     // Without a load, one that takes about two hours.
     const energy::Watts load = has_load ? report.cases.front().load.watts
                                         : energy::Watts(report.battery.full.value / 7200.0);
-    tables = energy::study_steps(report.battery, load, energy::SteadyClock());
+    study.battery = energy::study_steps(report.battery, load, energy::SteadyClock());
+    study.time_constants = energy::study_time_constants(energy::SteadyClock());
   }
+  if (!options.csv.empty()) write_step_csv(options.csv, study);
+  if (!options.plot.empty()) write_plots_svg(options.plot, step_plots(study));
   if (options.json) {
-    fmt::print("{{\n  {}{}{}\n}}\n", battery_json(report), options.steps ? ",\n  " : "",
-               options.steps ? step_json(tables) : "");
+    fmt::print("{{\n  {}{}\n}}\n", battery_json(report),
+               options.steps ? fmt::format(",\n  {},\n  {}", step_json(study.battery),
+                                           time_constant_json(study.time_constants))
+                             : "");
   } else {
-    fmt::print("{}{}{}", battery_text(report), options.steps ? "\n" : "", step_text(tables));
+    fmt::print("{}", battery_text(report));
+    if (options.steps) {
+      fmt::print("\n{}\n{}", step_text(study.battery), time_constant_text(study.time_constants));
+    }
   }
   return ExitCode::ok;
 }
@@ -163,8 +174,16 @@ void add_battery_command(CLI::App& app, ExitCode& result) {
       ->excludes(file);
   command->add_option("--model,-m", options->model,
                       "all (default), constant, peukert, kinetic or thevenin");
-  command->add_flag("--steps", options->steps,
-                    "Also show error against step size (1 ms to 10 h) and run time of the models");
+  auto* steps = command->add_flag(
+      "--steps", options->steps,
+      "Also show error against step size (1 ms to 10 h) and run time of the models, and of gauge "
+      "filters and drift fits with time constants from 1 ms to 1e6 s");
+  command->add_option("--csv", options->csv, "With --steps: write every combination to this file")
+      ->needs(steps);
+  command
+      ->add_option("--plot", options->plot,
+                   "With --steps: draw error against step size and run time, an SVG picture")
+      ->needs(steps);
   command->add_option("--sysfs-root", options->sensor_root,
                       "Look for the battery below this folder instead of /");
   add_output_options(*command, *options);

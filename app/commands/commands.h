@@ -22,5 +22,6 @@ void add_battery_command(CLI::App& app, ExitCode& result);
 void add_compare_command(CLI::App& app, ExitCode& result);
 void add_model_command(CLI::App& app, ExitCode& result);
 void add_attach_command(CLI::App& app, ExitCode& result);
+void add_accuracy_command(CLI::App& app, ExitCode& result);
 
 }  // namespace encore::app

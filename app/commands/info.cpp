@@ -51,6 +51,10 @@ std::string material_text(const scene::Material& m) {
   if (m.emission != glm::vec3(0.0F)) text += fmt::format("  Ke {}", vec3_text(m.emission));
   if (m.opacity != 1.0F) text += fmt::format("  d {:g} Ni {:g}", m.opacity, m.index_of_refraction);
   if (m.reflectivity != 0.0F) text += fmt::format("  reflectivity {:g}", m.reflectivity);
+  if (m.diffuse_texture != nullptr) {
+    text += fmt::format("  texture {} ({}x{})", m.diffuse_texture->name, m.diffuse_texture->width,
+                        m.diffuse_texture->height);
+  }
   return text;
 }
 
@@ -82,8 +86,13 @@ void print_text(const scene::Scene& scene, const scene::SceneInfo& info) {
     print_line("dropped (NaN or inf)", with_separators(info.dropped_non_finite));
   }
   print_line("animation", animation_text(info.animation));
-  print_line("shading", fmt::format("{}{}", info.has_normals ? "smooth normals" : "flat",
-                                    info.has_colors ? ", vertex colours" : ""));
+  print_line("shading", fmt::format("{}{}{}", info.has_normals ? "smooth normals" : "flat",
+                                    info.has_colors ? ", vertex colours" : "",
+                                    info.has_texcoords ? ", textures" : ""));
+  if (info.textures > 0) {
+    print_line("textures", fmt::format("{}, {}{}", info.textures, bytes_text(info.texture_bytes),
+                                       info.has_texcoords ? "" : " (no surface has coordinates)"));
+  }
   print_line("memory", fmt::format("{} meshes, {} triangle list", bytes_text(info.mesh_bytes),
                                    bytes_text(info.triangle_list_bytes)));
   print_line("camera",
@@ -124,10 +133,11 @@ void print_json(const scene::SceneInfo& info) {
   fmt::print(
       "{{\"name\": {}, \"source\": {}, \"triangles\": {}, \"vertices\": {}, \"instances\": {}, "
       "\"models\": {}, \"materials\": {}, \"lights\": {},\n \"degenerate_triangles\": {}, "
-      "\"dropped_non_finite\": {}, \"has_normals\": {}, \"has_colors\": {},\n",
+      "\"dropped_non_finite\": {}, \"has_normals\": {}, \"has_colors\": {}, "
+      "\"has_texcoords\": {}, \"textures\": {}, \"texture_bytes\": {},\n",
       json_text(info.name), json_text(info.source), info.triangles, info.vertices, info.instances,
       info.models, info.materials, info.lights, info.degenerate_triangles, info.dropped_non_finite,
-      info.has_normals, info.has_colors);
+      info.has_normals, info.has_colors, info.has_texcoords, info.textures, info.texture_bytes);
   fmt::print(
       " \"bounds\": {{\"min\": {}, \"max\": {}}}, \"surface_area\": {}, "
       "\"triangles_per_volume\": {},\n \"occupied_share\": {}, \"fullest_cell_share\": {}, "

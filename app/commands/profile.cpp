@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/interrupt.h"
 #include "app/profile_run.h"
+#include "app/ray_options.h"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,7 @@ void add_profile_options(CLI::App& command, ProfileOptions& options,
       ->allow_extra_args(false);
   add_gl_device_option(command, gl_device);
   add_thread_option(command, options);
+  add_ray_options(command, options);
   add_output_options(command, options);
 }
 

@@ -2,6 +2,7 @@
 #include "app/commands/commands.h"
 #include "app/gpu_device.h"
 #include "app/interrupt.h"
+#include "app/ray_options.h"
 #include "app/render_device.h"
 #include "app/render_options.h"
 #include "app/render_report.h"
@@ -71,9 +72,10 @@ bool draw_and_write(const RenderOptions& options, const RenderChoice& choice,
                     const renderer::RenderInput& input, RenderReport& report) {
   GpuContext gpu(options.gl_device);
   const int threads = chosen_threads(options, *input.scene);
-  RenderDevice device(choice.device, input, gpu, threads);
+  const scene::RaySettings rays = chosen_rays(options, *input.scene);
+  RenderDevice device(choice.device, input, gpu, threads, rays);
   std::optional<RenderDevice> other;
-  if (choice.compare) other.emplace(*choice.compare, input, gpu, threads);
+  if (choice.compare) other.emplace(*choice.compare, input, gpu, threads, rays);
   renderer::Image image;
   try {
     if (!draw(device, choice, image, report)) return false;

@@ -6,6 +6,8 @@
 #include "app/gpu_verification_report.h"
 #include "app/interrupt.h"
 #include "app/json_text.h"
+#include "app/stability.h"
+#include "app/stability_report.h"
 #include "app/verification.h"
 #include "renderer/cpu_tracer.h"
 #include "renderer/difference_image.h"
@@ -36,6 +38,9 @@ struct VerifyOptions : CommonOptions {
   std::string images;
   std::optional<int> gl_device;
   std::uint64_t max_triangles = std::numeric_limits<std::uint64_t>::max();
+  bool stability = false;
+  std::vector<std::string> stability_cases;
+  bool full = false;
 };
 
 /// The rows as one JSON array, whichever device they are of.
@@ -244,11 +249,73 @@ std::vector<Device> chosen_devices(std::string_view list) {
   return devices;
 }
 
+/// The structures of --stability: those asked for, else all of them, brute too.
+std::vector<accel::StructureSpec> stability_structures(const VerifyOptions& options) {
+  if (!options.structures.empty()) return chosen_structures(options, scene::Scene{});
+  VerifyOptions brute = options;
+  brute.structures = {"brute"};
+  std::vector<accel::StructureSpec> specs = chosen_structures(brute, scene::Scene{});
+  const auto others = chosen_structures(options, scene::Scene{});
+  specs.insert(specs.end(), others.begin(), others.end());
+  return specs;
+}
+
+/// --stability: extreme geometry instead of scenes.
+ExitCode verify_stability(const VerifyOptions& options, const std::vector<Device>& devices,
+                          JsonRows& json, Terminal& terminal) {
+  if (!options.scenes.empty()) {
+    throw UsageError("--stability brings its own scenes; name none");
+  }
+  StabilityPlan plan;
+  plan.cases = options.stability_cases;
+  plan.seed = options.seed;
+  plan.structures = stability_structures(options);
+  plan.cpu = std::find(devices.begin(), devices.end(), Device::cpu) != devices.end();
+  if (options.full) {
+    plan.size = accel::StabilitySize::full;
+    plan.watertight_rays = 10'000'000;
+    plan.reference_tests = 1e9;
+  }
+  GpuContext gpu(options.gl_device);
+  if (std::find(devices.begin(), devices.end(), Device::gpu) != devices.end()) {
+    plan.gpu = gpu.get();
+    terminal.info(fmt::format("GPU: {}", gpu.info().name));
+  }
+  std::uint64_t broken = 0;
+  std::uint64_t rows = 0;
+  if (!options.json) print_stability_header();
+  run_stability(
+      plan,
+      [&](const StabilityRow& row) {
+        ++rows;
+        broken += row.broken.empty() ? 0 : 1;
+        terminal.progress_done();
+        if (options.json) {
+          json.add(json_stability_row(row));
+        } else {
+          print_stability_row(row);
+        }
+        std::fflush(stdout);
+      },
+      [&](double share, const std::string& name) { terminal.progress(name, share); });
+  terminal.progress_done();
+  if (!options.json) {
+    fmt::print("{} rows, {} broken limits{}\n", rows, broken, interrupted ? " (interrupted)" : "");
+  }
+  if (broken > 0) return ExitCode::mismatch;
+  return interrupted ? ExitCode::interrupted : ExitCode::ok;
+}
+
 ExitCode verify(const VerifyOptions& options) {
   const std::vector<Device> devices = chosen_devices(options.devices);
   parse_size(options.size);
   Terminal terminal(options.quiet);
   JsonRows json(options.json);
+  if (options.stability || !options.stability_cases.empty()) {
+    const ExitCode result = verify_stability(options, devices, json, terminal);
+    json.end();
+    return result;
+  }
   ExitCode result = ExitCode::ok;
   for (const Device device : devices) {
     const ExitCode one = device == Device::cpu ? verify_cpu(options, json, terminal)
@@ -290,6 +357,16 @@ void add_verify_command(CLI::App& app, ExitCode& result) {
                       "--device gpu: folder for both pictures and their difference");
   command->add_option("--max-triangles", options->max_triangles,
                       "Leave out scenes of more triangles");
+  command->add_flag("--stability", options->stability,
+                    "Extreme geometry instead of scenes: every structure by every intersection "
+                    "test, against limits");
+  command
+      ->add_option("--stability-cases", options->stability_cases,
+                   "Only these cases of --stability, by name: a,b")
+      ->delimiter(',');
+  command->add_flag("--full", options->full,
+                    "--stability: up to a million triangles a case, 2^24 in one, and 10^7 rays at "
+                    "the edges and vertices of each closed mesh");
   add_gl_device_option(*command, options->gl_device);
   command->footer(
       "Ray kinds: the scene's camera, from outside, inside and far away, along axes, inside the\n"

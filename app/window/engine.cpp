@@ -2,6 +2,7 @@
 
 #include "app/device.h"
 #include "app/window/figures_view.h"
+#include "app/window/scene_preferences.h"
 #include "ui/layout.h"
 
 #include <fmt/format.h>
@@ -110,11 +111,15 @@ void Engine::take_scene(ui::UiState& state) {
       scene_ = loaded->scene;
       scene_name_ = loaded->name;
       scene_info_.reset();
+      scene_could_use_ = {};
       scene_problem_.clear();
       if (!reloaded) {
         state.camera = scene_->camera;
         state.free_camera.reset();
         state.time_s = 0.0;
+        for (const std::string& problem : apply_preferences(*scene_, state.settings)) {
+          ui::tell(state, problem, true);
+        }
       }
       state.selected_node.reset();
       state.ray_step = 0;
@@ -127,7 +132,10 @@ void Engine::take_scene(ui::UiState& state) {
       ui::remember(state.preferences.recent_scenes, scene_name_);
     }
   }
-  if (auto info = loader_.take_info()) scene_info_ = std::move(info);
+  if (auto described = loader_.take_info()) {
+    scene_info_ = std::move(described->info);
+    scene_could_use_ = described->could_use;
+  }
 }
 
 void Engine::take_tasks(ui::UiState& state) {
@@ -231,6 +239,7 @@ PaneRequest Engine::request_of(std::size_t pane, const ui::UiState& state) const
   request.structure = settings.structure;
   request.policy = settings.policy;
   request.threads = settings.threads > 0 ? settings.threads : setup_.threads;
+  request.rays = state.settings.rays;
   request.time_s = state.time_s;
   request.camera = state.camera;
   std::tie(request.width, request.height) = picture_size(pane, state);

@@ -93,6 +93,7 @@ class Engine {
   SceneLoader loader_;
   std::shared_ptr<const scene::Scene> scene_;
   std::shared_ptr<const scene::SceneInfo> scene_info_;
+  scene::Needs scene_could_use_;
   std::string scene_name_;  ///< as it was asked for
   std::string scene_problem_;
   double last_now_s_ = 0.0;

@@ -32,11 +32,16 @@ void Engine::fill_scene(ui::View& view) const {
   scene = {};
   scene.scene = scene_;
   scene.info = scene_info_;
+  scene.could_use = scene_could_use_;
   scene.problem = scene_problem_;
   if (scene_) {
     scene.animated = scene_->animated();
     scene.duration_s = scene_->duration_s();
     scene.warnings = scene_->warnings.messages;
+  }
+  for (const auto& worker : workers_) {
+    const auto output = worker->output();
+    if (output && scene.left_out.empty()) scene.left_out = output->left_out;
   }
   scene.loading =
       work_of(loader_.loading(), loader_.doing(), loader_.progress(), true, loader_.elapsed_s());
@@ -65,6 +70,7 @@ void Engine::fill_pane(ui::View& view, std::size_t pane, const ui::UiState& stat
     out.traced_height = output->screen->height;
   }
   out.frame = output->frame;
+  out.refinement = output->refinement;
   if (out.frame && out.frame->total_s() > 0.0 &&
       (state.measuring || state.settings.animation.playing || state.camera_moving)) {
     out.frames_per_s = 1.0 / out.frame->total_s();
@@ -76,6 +82,7 @@ void Engine::fill_pane(ui::View& view, std::size_t pane, const ui::UiState& stat
   out.nodes = output->nodes;
   out.profile = output->profile;
   out.sah_decay = output->sah_decay;
+  out.break_even_frames = output->break_even_frames;
   out.selected_triangles = output->selected_triangles;
   out.heatmap = output->heatmap;
   out.difference = output->difference;
@@ -83,7 +90,11 @@ void Engine::fill_pane(ui::View& view, std::size_t pane, const ui::UiState& stat
   out.memory_bytes = output->memory_bytes;
   out.joules_per_frame.provenance = view.power;
   for (const ui::ConfigurationView& configuration : configurations_) {
-    if (configuration.pane == pane) out.joules_per_frame = configuration.joules;
+    if (configuration.pane != pane) continue;
+    out.joules_per_frame = configuration.joules;
+    for (const ui::PhaseFigure& phase : configuration.phases) {
+      if (phase.phase == "render") out.render_joules = phase.joules;
+    }
   }
   if (!out.joules_per_frame.value &&
       out.joules_per_frame.provenance.origin != energy::Origin::unavailable) {
@@ -133,6 +144,14 @@ void Engine::fill_power(ui::View& view, const ui::UiState& state) {
     }
   }
   plots.configurations = configurations_;
+  for (std::size_t pane = 0; pane < ui::kPaneCount; ++pane) {
+    const auto output = workers_[pane]->output();
+    if (!output || !output->refinement || output->refinement->errors.empty()) continue;
+    const ui::PaneSettings& settings = state.settings.panes[pane];
+    plots.pictures.push_back(
+        {fmt::format("{} pane, {}", pane == 0 ? "left" : "right", ui::to_string(settings.device)),
+         output->refinement->errors});
+  }
 }
 
 void Engine::fill_recorder(ui::View& view) const {

@@ -1,5 +1,7 @@
 #include "app/window/figures_view.h"
 
+#include "app/session_input.h"
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -54,6 +56,47 @@ void add_errors(const std::vector<energy::ConvergenceRow>& rows,
   }
 }
 
+/// The render phase's joules, shared out by time.
+ui::EnergyFigure share_of(const ui::ConfigurationView& view, double share) {
+  ui::EnergyFigure joules;
+  joules.provenance = {energy::Origin::unavailable, "rendering is not told apart from the rest"};
+  for (const ui::PhaseFigure& phase : view.phases) {
+    if (phase.phase != "render") continue;
+    joules = phase.joules;
+    if (!joules.value) continue;
+    *joules.value *= share;
+    if (joules.half_width) *joules.half_width *= share;
+    joules.provenance.detail += "; render's joules, split by the time of each kind of ray";
+  }
+  return joules;
+}
+
+void add_ray_kinds(const energy::SummaryRow& summary, ui::ConfigurationView& view) {
+  double all_ms = 0.0;
+  for (std::size_t i = 0; i < scene::kRayKinds; ++i) {
+    const auto kind = static_cast<scene::RayKind>(i);
+    const std::string name(scene::to_string(kind));
+    const auto rays = counter_value(summary, name + "_rays");
+    if (rays.value_or(0.0) <= 0.0) continue;
+    ui::RayKindCost cost;
+    cost.kind = kind;
+    cost.rays = rays;
+    if (const auto ms = counter_value(summary, name + "_ms")) {
+      cost.seconds = *ms / 1e3;
+      all_ms += *ms;
+    }
+    view.rays.push_back(cost);
+  }
+  for (ui::RayKindCost& cost : view.rays) {
+    if (cost.seconds && all_ms > 0.0) {
+      cost.joules = share_of(view, *cost.seconds * 1e3 / all_ms);
+    } else {
+      cost.joules.provenance = {energy::Origin::unavailable,
+                                "the time of this kind of ray is not told apart"};
+    }
+  }
+}
+
 ui::ConfigurationView view_of(const energy::SummaryRow& summary, const ConfigurationBars& bars) {
   ui::ConfigurationView view;
   view.label = bars.name;
@@ -68,6 +111,7 @@ ui::ConfigurationView view_of(const energy::SummaryRow& summary, const Configura
   view.net_joules =
       figure(value_of(summary.net_joules), value_of(summary.net_joules_ci95), bars.energy);
   view.phases = phases_of(bars);
+  add_ray_kinds(summary, view);
   return view;
 }
 

@@ -53,12 +53,15 @@ struct PaneOutput {
   scene::Camera camera;  ///< of the picture
   int width = 0;         ///< as asked for
   int height = 0;
-  bool whole = false;  ///< not a coarse one
+  bool whole = false;                            ///< not a coarse one, and of all samples
+  std::optional<ui::RefinementView> refinement;  ///< of several samples a pixel
+  std::vector<scene::LeftOut> left_out;          ///< by the scene and its rays
   std::optional<ui::FrameFigures> frame;
   std::optional<ui::HeatmapView> heatmap;
   std::optional<ui::DifferenceView> difference;
   std::shared_ptr<const accel::BuildStats> stats;
   std::optional<double> sah_decay;
+  std::optional<double> break_even_frames;
   std::shared_ptr<const accel::NodeTable> nodes;
   std::shared_ptr<const accel::StructureProfile> profile;
   std::shared_ptr<const accel::NodeValues> node_values;  ///< by the overlay's colour

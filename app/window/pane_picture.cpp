@@ -22,8 +22,49 @@ bool PanePicture::wants_hits(const PaneTracer& tracer, const PaneRequest& reques
 
 bool PanePicture::whole(const PaneTracer& tracer, const PaneRequest& request) const {
   const Made wanted{tracer.content_serial(), request.camera, request.width, request.height};
-  return image_made_ == wanted && (!wants_counters(tracer, request) || counters_made_ == wanted) &&
+  return image_made_ == wanted && complete_ &&
+         (!wants_counters(tracer, request) || counters_made_ == wanted) &&
          (!wants_hits(tracer, request) || hits_made_ == wanted);
+}
+
+bool PanePicture::draw(PaneTracer& tracer, const PaneRequest& request, const Made& wanted,
+                       energy::PhaseLog& log, const std::atomic<bool>* cancel) {
+  // Whoever looks at a coarse picture wants it soon.
+  const bool coarse = wanted.width < request.width || wanted.height < request.height;
+  std::optional<SampleRange> samples;
+  if (coarse && tracer.samples() > 1) samples = SampleRange{0, 1};
+  if (!tracer.draw(request.camera, wanted.width, wanted.height, log, cancel, samples)) return false;
+  auto image = std::make_shared<renderer::Image>();
+  image->resize(wanted.width, wanted.height);
+  tracer.renderer()->read(*image);
+  image_ = std::move(image);
+  refined_ = false;
+  complete_ = !samples;
+  return true;
+}
+
+bool PanePicture::refine(PaneTracer& tracer, const PaneRequest& request, const Made& wanted,
+                         energy::PhaseLog& log, const std::atomic<bool>* cancel) {
+  if (image_made_ != wanted || !refined_) {
+    refinement_.begin(tracer.samples());
+    refined_ = false;
+  }
+  const auto samples = refinement_.next();
+  if (!samples) return true;
+  const std::size_t marks = log.spans().size();
+  if (!tracer.draw(request.camera, wanted.width, wanted.height, log, cancel, samples)) return false;
+  double seconds = 0.0;
+  for (const energy::PhaseSpan& span : log.spans().subspan(marks)) {
+    seconds += (span.end - span.start).value;
+  }
+  renderer::Image part;
+  part.resize(wanted.width, wanted.height);
+  tracer.renderer()->read(part);
+  refinement_.add(part, *samples, seconds, tracer.renderer()->last_rays());
+  image_ = refinement_.picture();
+  refined_ = true;
+  complete_ = refinement_.complete();
+  return true;
 }
 
 bool PanePicture::trace(PaneTracer& tracer, const PaneRequest& request, int divisor,
@@ -36,12 +77,12 @@ bool PanePicture::trace(PaneTracer& tracer, const PaneRequest& request, int divi
   const auto cancelled = [cancel] {
     return cancel != nullptr && cancel->load(std::memory_order_relaxed);
   };
-  if (image_made_ != wanted) {
-    if (!tracer.draw(request.camera, wanted.width, wanted.height, log, cancel)) return false;
-    auto image = std::make_shared<renderer::Image>();
-    image->resize(wanted.width, wanted.height);
-    tracer.renderer()->read(*image);
-    image_ = std::move(image);
+  if (image_made_ != wanted || (divisor == 1 && !complete_)) {
+    const bool parts = divisor == 1 && tracer.samples() > 1;
+    if (!(parts ? refine(tracer, request, wanted, log, cancel)
+                : draw(tracer, request, wanted, log, cancel))) {
+      return false;
+    }
     image_made_ = wanted;
     drew_ = true;
   }
@@ -68,6 +109,8 @@ void PanePicture::take_drawn(PaneTracer& tracer, const PaneRequest& request) {
   tracer.renderer()->read(*image);
   image_ = std::move(image);
   image_made_ = {tracer.content_serial(), request.camera, request.width, request.height};
+  refined_ = false;
+  complete_ = true;
   wanted_width_ = request.width;
   wanted_height_ = request.height;
 }
@@ -156,7 +199,9 @@ void PanePicture::fill(PaneOutput& output) const {
   if (image_made_) output.camera = image_made_->camera;
   output.width = wanted_width_;
   output.height = wanted_height_;
-  output.whole = image_ && image_->width == wanted_width_ && image_->height == wanted_height_;
+  output.whole =
+      image_ && complete_ && image_->width == wanted_width_ && image_->height == wanted_height_;
+  if (refined_) output.refinement = refinement_.view();
   output.heatmap = heatmap_view_;
   output.difference = difference_view_;
 }

@@ -3,6 +3,7 @@
 #include "app/window/pane_output.h"
 #include "app/window/pane_request.h"
 #include "app/window/pane_tracer.h"
+#include "app/window/refinement.h"
 
 #include <atomic>
 #include <cstdint>
@@ -17,8 +18,10 @@ namespace encore::app {
 /// without tracing.
 class PanePicture {
  public:
-  /// Draws what is asked for with 1 / `divisor` of the pixels a side, unless it is there. False if
-  /// `cancel` ended it; then what was there before stays.
+  /// Draws what is asked for with 1 / `divisor` of the pixels a side, unless it is there. Of a
+  /// picture of several samples a pixel it draws the next part (refinement.h), and of a coarse one
+  /// the first sample alone; complete() says whether there is more to draw. False if `cancel` ended
+  /// it; then what was there before stays.
   bool trace(PaneTracer& tracer, const PaneRequest& request, int divisor, energy::PhaseLog& log,
              const std::atomic<bool>* cancel);
   /// Takes over the picture that the tracer drew last by itself.
@@ -30,6 +33,10 @@ class PanePicture {
 
   /// Whether the whole picture that `request` asks for is there.
   [[nodiscard]] bool whole(const PaneTracer& tracer, const PaneRequest& request) const;
+  /// Whether the picture has all samples that it is to have.
+  [[nodiscard]] bool complete() const { return complete_; }
+  /// Of a picture of several samples a pixel, since it was begun; null for others.
+  [[nodiscard]] const Refinement* refinement() const { return refined_ ? &refinement_ : nullptr; }
   /// Whether the last trace() drew a picture, or found it there.
   [[nodiscard]] bool drew() const { return drew_; }
 
@@ -43,6 +50,10 @@ class PanePicture {
 
     friend bool operator==(const Made&, const Made&) = default;
   };
+  [[nodiscard]] bool draw(PaneTracer& tracer, const PaneRequest& request, const Made& wanted,
+                          energy::PhaseLog& log, const std::atomic<bool>* cancel);
+  [[nodiscard]] bool refine(PaneTracer& tracer, const PaneRequest& request, const Made& wanted,
+                            energy::PhaseLog& log, const std::atomic<bool>* cancel);
   [[nodiscard]] static bool wants_counters(const PaneTracer& tracer, const PaneRequest& request);
   [[nodiscard]] static bool wants_hits(const PaneTracer& tracer, const PaneRequest& request);
   void color_heatmap(const PaneRequest& request, ScreenPicture& screen);
@@ -53,6 +64,9 @@ class PanePicture {
   std::optional<Made> counters_made_;
   std::optional<Made> hits_made_;
   std::shared_ptr<const renderer::Image> image_;
+  Refinement refinement_;
+  bool refined_ = false;  ///< image_ is refinement_'s
+  bool complete_ = true;
   std::vector<accel::TraceCounters> counters_;
   std::shared_ptr<const std::vector<float>> distances_;
   std::shared_ptr<const std::vector<std::uint32_t>> hit_triangles_;

@@ -5,6 +5,7 @@
 #include "energy/provenance.h"
 #include "scene/camera.h"
 #include "scene/ray.h"
+#include "scene/ray_settings.h"
 #include "scene/scene.h"
 #include "ui/settings.h"
 
@@ -52,6 +53,7 @@ struct PaneRequest {
   accel::StructureSpec structure;
   accel::Policy policy = accel::Policy::rebuild;
   int threads = 0;
+  scene::RaySettings rays;
   double time_s = 0.0;
   scene::Camera camera;
   int width = 0;

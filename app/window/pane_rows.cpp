@@ -32,6 +32,25 @@ ui::FrameFigures figures_of(const energy::PhaseLog& log) {
   return figures;
 }
 
+void add_rays(ui::FrameFigures& figures, const std::optional<renderer::RayFigures>& rays,
+              std::uint64_t plain) {
+  if (!rays || rays->rays() == 0) {
+    figures.rays = plain;
+    figures.kinds = {};
+    figures.kinds[0].rays = plain;
+    if (plain > 0) figures.kinds[0].share = 1.0;
+    return;
+  }
+  figures.rays = rays->rays();
+  for (std::size_t i = 0; i < scene::kRayKinds; ++i) {
+    const auto kind = static_cast<scene::RayKind>(i);
+    figures.kinds[i].rays = (*rays)[kind].rays;
+    figures.kinds[i].share = rays->share(kind);
+    // One kind alone took all of the time, whoever measured it.
+    if (figures.kinds[i].rays == figures.rays) figures.kinds[i].share = 1.0;
+  }
+}
+
 WorkloadSpec workload_of(const PaneRequest& request, bool forced) {
   WorkloadSpec spec;
   spec.scene = request.scene;
@@ -40,6 +59,7 @@ WorkloadSpec workload_of(const PaneRequest& request, bool forced) {
   spec.policy = request.policy;
   spec.size = {request.width, request.height};
   spec.threads = request.threads;
+  spec.rays = request.rays;
   spec.test = request.scene->animated() ? TestKind::animated
               : forced                  ? TestKind::forced
                                         : TestKind::fixed;

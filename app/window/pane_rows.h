@@ -4,14 +4,22 @@
 #include "app/workloads.h"
 #include "energy/phase_log.h"
 #include "energy/session.h"
+#include "renderer/renderer.h"
 #include "ui/view.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 namespace encore::app {
 
 /// The times of the phases marked in `log`; those that did not happen are missing.
 ui::FrameFigures figures_of(const energy::PhaseLog& log);
+
+/// What a frame's rays were by kind; `plain`: their number where nothing is known but that each was
+/// a camera ray.
+void add_rays(ui::FrameFigures& figures, const std::optional<renderer::RayFigures>& rays,
+              std::uint64_t plain);
 
 /// What frames of a request are called in sessions; `forced`: scenes that stand still are followed
 /// as if they moved. The request has a scene and a device.

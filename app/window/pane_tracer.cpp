@@ -5,9 +5,11 @@
 #include "accel/update_policy.h"
 #include "app/make_renderer.h"
 #include "renderer/cpu_tracer.h"
+#include "scene/needs.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -32,6 +34,12 @@ class Watched {
  private:
   accel::AccelerationStructure& structure_;
 };
+
+/// Whether a structure that was built for one spec serves the other.
+bool same_build(accel::StructureSpec a, const accel::StructureSpec& b) {
+  a.intersection = b.intersection;
+  return a == b;
+}
 
 }  // namespace
 
@@ -81,18 +89,34 @@ void PaneTracer::use_structure(const PaneRequest& request) {
   }
   if (structure_ && spec_ && *spec_ == request.structure) return;
   ready_ = false;
+  if (structure_ && spec_ && same_build(*spec_, request.structure)) {
+    structure_->set_intersection(request.structure.intersection);
+    spec_ = request.structure;
+    ++content_serial_;
+    return;
+  }
   built_ = false;
   structure_ = accel::make_structure(request.structure);
+  costs_ = accel::AutoPolicy(accel::auto_rule(request.structure.settings));
   spec_ = request.structure;
 }
 
 void PaneTracer::use_renderer(const PaneRequest& request) {
   const int threads = *request.device == Device::cpu ? request.threads : 0;
-  if (renderer_ && device_ == request.device && threads_ == threads) return;
+  if (renderer_ && device_ == request.device && threads_ == threads) {
+    if (rays_ == request.rays) return;
+    rays_ = request.rays;
+    renderer_->set_rays(rays_);
+    stale_ = true;
+    ++content_serial_;
+    return;
+  }
   renderer_.reset();
   tracer_ = nullptr;
   ready_ = false;
   renderer_ = make_renderer(*request.device, threads, gpu_);
+  rays_ = request.rays;
+  renderer_->set_rays(rays_);
   tracer_ =
       traces_rays(*request.device) ? dynamic_cast<renderer::Tracer*>(renderer_.get()) : nullptr;
   device_ = request.device;
@@ -103,7 +127,7 @@ void PaneTracer::use_renderer(const PaneRequest& request) {
 
 bool PaneTracer::must_build(const PaneRequest& request) const {
   if (!request.device || !traces_rays(*request.device)) return false;
-  return scene_ != request.scene || !built_ || !spec_ || !(*spec_ == request.structure) ||
+  return scene_ != request.scene || !built_ || !spec_ || !same_build(*spec_, request.structure) ||
          rebuild_ != request.rebuild;
 }
 
@@ -158,7 +182,7 @@ void PaneTracer::follow(TriangleChange change, const PaneRequest& request, energ
     build(request, log, watch);
     return;
   }
-  switch (accel::decide(request.policy, *structure_, change)) {
+  switch (accel::decide(request.policy, *structure_, change, costs_)) {
     case accel::UpdateAction::none:
       if (triangles_->triangles.size() != built_over_) {
         throw std::runtime_error(
@@ -207,6 +231,8 @@ void PaneTracer::send(energy::PhaseLog& log) {
 
 void PaneTracer::prepare(const PaneRequest& request, energy::PhaseLog& log,
                          accel::BuildWatch* watch) {
+  const std::size_t marks = log.spans().size();
+  policy_ = request.policy;
   use_scene(request);
   use_structure(request);
   use_renderer(request);
@@ -222,28 +248,69 @@ void PaneTracer::prepare(const PaneRequest& request, energy::PhaseLog& log,
   }
   follow(change, request, log, watch);
   send(log);
+  learn(log, marks);
 }
 
 void PaneTracer::follow_forced(const PaneRequest& request, energy::PhaseLog& log) {
   if (!structure_) return;
-  if (accel::decide(request.policy, *structure_, TriangleChange::moved) ==
+  const std::size_t marks = log.spans().size();
+  policy_ = request.policy;
+  if (accel::decide(request.policy, *structure_, TriangleChange::moved, costs_) ==
       accel::UpdateAction::update) {
     update(request, log);
   } else if (request.policy != accel::Policy::fixed) {
     build(request, log, nullptr);
   }
   send(log);
+  learn(log, marks);
+}
+
+void PaneTracer::learn(const energy::PhaseLog& log, std::size_t before) {
+  if (!structure_ || policy_ != accel::Policy::automatic) return;
+  double transfer_s = 0.0;
+  std::optional<double> build_s;
+  std::optional<double> update_s;
+  for (const energy::PhaseSpan& span : log.spans().subspan(before)) {
+    const double seconds = (span.end - span.start).value;
+    if (span.phase == Phase::transfer) transfer_s += seconds;
+    if (span.phase == Phase::build) build_s = build_s.value_or(0.0) + seconds;
+    if (span.phase == Phase::update) update_s = update_s.value_or(0.0) + seconds;
+  }
+  if (build_s) costs_.observe_build(*build_s + transfer_s);
+  if (update_s) costs_.observe_update(*update_s + transfer_s);
+}
+
+void PaneTracer::learn_frame(double render_s) {
+  if (!structure_ || policy_ != accel::Policy::automatic) return;
+  costs_.observe_frame(render_s, structure_->decay());
+}
+
+std::optional<double> PaneTracer::break_even_frames() const {
+  if (!built_ || policy_ != accel::Policy::automatic) return std::nullopt;
+  return costs_.break_even_frames();
 }
 
 bool PaneTracer::draw(const scene::Camera& camera, int width, int height, energy::PhaseLog& log,
-                      const std::atomic<bool>* cancel) {
+                      const std::atomic<bool>* cancel, std::optional<SampleRange> samples) {
   renderer_->set_cancel_flag(cancel);
   {
     const auto mark = log.mark(Phase::render);
-    renderer_->draw(camera, width, height);
+    if (samples) {
+      renderer_->draw_samples(camera, width, height, samples->first, samples->count);
+    } else {
+      renderer_->draw(camera, width, height);
+    }
   }
   renderer_->set_cancel_flag(nullptr);
   return renderer_->complete();
+}
+
+bool PaneTracer::plain() const {
+  return !tracer_ || !scene_ || !scene::needs_of(*scene_, *triangles_, rays_).paths();
+}
+
+int PaneTracer::samples() const {
+  return tracer_ != nullptr ? std::max(rays_.samples, 1) : 1;
 }
 
 std::string PaneTracer::device_text() const {
@@ -258,7 +325,8 @@ std::string PaneTracer::device_text() const {
 std::uint64_t PaneTracer::memory_bytes() const {
   std::uint64_t bytes = triangles_->triangles.capacity() * sizeof(scene::Triangle) +
                         (triangles_->normals.capacity() + triangles_->colors.capacity()) *
-                            sizeof(triangles_->normals[0]);
+                            sizeof(triangles_->normals[0]) +
+                        triangles_->texcoords.capacity() * sizeof(triangles_->texcoords[0]);
   if (built_) bytes += structure_->stats().bytes;
   return bytes;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/acceleration_structure.h"
+#include "accel/auto_policy.h"
 #include "accel/build_watch.h"
 #include "app/gpu_device.h"
 #include "app/window/pane_request.h"
@@ -18,6 +19,12 @@
 
 namespace encore::app {
 
+/// Some of a picture's samples a pixel.
+struct SampleRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 1;
+};
+
 /// One pane's triangles, structure and renderer, brought from what they are to what is asked for by
 /// the least work. Used by one thread; OpenGL is touched only by panes that draw with it.
 class PaneTracer {
@@ -33,9 +40,15 @@ class PaneTracer {
   [[nodiscard]] bool must_build(const PaneRequest& request) const;
   /// Builds or updates though nothing moved (the thesis' forced frames), and sends.
   void follow_forced(const PaneRequest& request, energy::PhaseLog& log);
-  /// Draws a frame, marked as `render`. False if it was cancelled.
+  /// Draws a frame with all its samples, or only `samples` of them; marked as `render`. False if it
+  /// was cancelled.
   bool draw(const scene::Camera& camera, int width, int height, energy::PhaseLog& log,
-            const std::atomic<bool>* cancel);
+            const std::atomic<bool>* cancel, std::optional<SampleRange> samples = std::nullopt);
+  /// What drawing a whole frame took; for policy automatic.
+  void learn_frame(double render_s);
+  /// Policy automatic: frames in which a build now would pay for itself; nothing where that is not
+  /// known, or never.
+  [[nodiscard]] std::optional<double> break_even_frames() const;
   /// Forgets everything; for panes that were switched off.
   void clear();
 
@@ -45,6 +58,12 @@ class PaneTracer {
   /// Null where there is none, or where it has not been built.
   [[nodiscard]] const accel::AccelerationStructure* structure() const;
   [[nodiscard]] const scene::TriangleList& triangles() const { return *triangles_; }
+  /// As the renderer has been told.
+  [[nodiscard]] const scene::RaySettings& rays() const { return rays_; }
+  /// Camera rays a pixel that a whole frame has; 1 where no rays are traced.
+  [[nodiscard]] int samples() const;
+  /// Whether a frame is of one camera ray a pixel and no others.
+  [[nodiscard]] bool plain() const;
   [[nodiscard]] const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
   /// Whether the device's copy of the structure was fitted by the device itself, so that the host's
   /// is of an earlier time.
@@ -70,6 +89,7 @@ class PaneTracer {
   void build(const PaneRequest& request, energy::PhaseLog& log, accel::BuildWatch* watch);
   void update(const PaneRequest& request, energy::PhaseLog& log);
   void send(energy::PhaseLog& log);
+  void learn(const energy::PhaseLog& log, std::size_t before);
   [[nodiscard]] bool fits_on_device(const PaneRequest& request) const;
 
   GpuContext gpu_;
@@ -79,12 +99,15 @@ class PaneTracer {
   std::optional<accel::StructureSpec> spec_;  ///< of structure_
   std::unique_ptr<accel::AccelerationStructure> structure_;
   bool built_ = false;
-  std::uint64_t rebuild_ = 0;  ///< the request's, when it was built
+  accel::AutoPolicy costs_;                        ///< in seconds, of structure_
+  accel::Policy policy_ = accel::Policy::rebuild;  ///< of the last prepare()
+  std::uint64_t rebuild_ = 0;                      ///< the request's, when it was built
   std::size_t built_over_ = 0;
   bool fitted_on_device_ = false;
   bool update_on_device_ = false;  ///< is due, once the triangles are sent
   std::optional<Device> device_;
   int threads_ = 0;
+  scene::RaySettings rays_;  ///< of renderer_
   std::unique_ptr<renderer::Renderer> renderer_;
   renderer::Tracer* tracer_ = nullptr;
   bool ready_ = false;  ///< the renderer was initialised with all of this

@@ -1,12 +1,9 @@
 #include "app/window/pane_worker.h"
 
-#include "app/window/pane_inspection.h"
-#include "app/window/pane_picture.h"
 #include "app/window/pane_rows.h"
+#include "app/window/pane_work.h"
 #include "app/window/steady_time.h"
 #include "app/window/thread_priority.h"
-#include "app/workload_frames.h"
-#include "app/workloads.h"
 
 #include <fmt/format.h>
 
@@ -19,39 +16,11 @@ namespace encore::app {
 
 namespace {
 
-/// Marks of one round; explore mode makes at most a dozen.
-constexpr std::size_t kMostMarks = 64;
 /// A picture that takes no longer is drawn whole while the camera moves.
 constexpr double kQuickFrame_s = 0.045;
 constexpr int kCoarsest = 12;
 
-/// The same without anybody who looks at the host's nodes: what is measured.
-PaneRequest unobserved(PaneRequest request) {
-  request.nodes = false;
-  request.free.reset();
-  request.pick.reset();
-  return request;
-}
-
 }  // namespace
-
-/// What only the worker's thread touches.
-struct PaneWorker::Work {
-  explicit Work(const Setup& setup)
-      : tracer(setup.gl_device), log(setup.monitor->clock(), kMostMarks) {}
-
-  PaneTracer tracer;
-  PanePicture picture;
-  PaneInspection inspection;
-  energy::PhaseLog log;
-  std::unique_ptr<energy::PhaseListener> listener;
-  std::optional<Device> listener_device;
-  std::optional<ui::FrameFigures> frame;  ///< of the last whole frame
-  std::uint64_t serial = 0;
-  double seconds_a_pixel = 0.0;  ///< of the last picture
-  std::uint64_t slot_frame = 0;  ///< of the animation, over all slots
-  std::uint64_t cancelled_at = 0;
-};
 
 PaneWorker::PaneWorker(Setup setup)
     : setup_(std::move(setup)), work_(std::make_unique<Work>(setup_)) {
@@ -110,6 +79,11 @@ void PaneWorker::hold(bool held) {
   wake_.notify_all();
 }
 
+bool PaneWorker::at_rest() const {
+  const std::lock_guard lock(mutex_);
+  return held_ && !busy_ && job_ == nullptr;
+}
+
 bool PaneWorker::can_run() const {
   const std::lock_guard lock(mutex_);
   return latest_.scene && latest_.device && !latest_.cancelled && latest_.width > 0 &&
@@ -139,6 +113,11 @@ void PaneWorker::set_status(ui::PaneState state, std::string doing, std::string 
   if (setup_.on_change) setup_.on_change();
 }
 
+bool PaneWorker::newer_wanted() const {
+  const std::lock_guard lock(mutex_);
+  return stop_ || job_ != nullptr || wanted_ || held_;
+}
+
 bool PaneWorker::superseded(const PaneRequest& request) const {
   const std::lock_guard lock(mutex_);
   return stop_ || job_ != nullptr || (wanted_ && !wanted_->same_frame(request));
@@ -151,7 +130,9 @@ void PaneWorker::run() {
     SlotJob* job = nullptr;
     {
       std::unique_lock lock(mutex_);
+      busy_ = false;
       wake_.wait(lock, [this] { return stop_ || job_ != nullptr || (wanted_ && !held_); });
+      busy_ = true;
       if (stop_) {
         if (job_ != nullptr) job_->done = true;
         break;
@@ -214,17 +195,24 @@ void PaneWorker::explore(const PaneRequest& request) {
     work.listener = setup_.monitor->listener(*request.device);
     work.listener_device = request.device;
   }
-  work.log.clear();
+  const bool goes_on = work.refining && work.refining->same_frame(request) &&
+                       work.refining->time_s == request.time_s && work.log.spans().size() > 0;
+  if (!goes_on) work.log.clear();
+  work.refining.reset();
   work.log.tell(work.listener.get());
   watch_.progress = 0.0F;
   if (work.tracer.must_build(request)) {
     set_status(ui::PaneState::working,
                fmt::format("building {}", accel::to_string(request.structure.kind)));
-  } else if (!work.picture.whole(work.tracer, request)) {
+  } else if (!goes_on && !work.picture.whole(work.tracer, request)) {
     set_status(ui::PaneState::working, "tracing");
   }
+  // What other rays cost is not known yet.
+  if (work.tracer.rays() != request.rays) work.seconds_a_pixel = 0.0;
   work.tracer.prepare(request, work.log, &watch_);
-  if (!work.picture.whole(work.tracer, request)) set_status(ui::PaneState::working, "tracing");
+  if (!goes_on && !work.picture.whole(work.tracer, request)) {
+    set_status(ui::PaneState::working, "tracing");
+  }
   if (!trace(request)) return;
   work.picture.color(request);
   if (!work.inspection.look(work.tracer, request, &cancel_trace_)) {
@@ -249,83 +237,53 @@ bool PaneWorker::trace(const PaneRequest& request) {
     work.log.clear();
     if (superseded(request)) return false;
   }
-  if (!work.picture.trace(work.tracer, request, 1, work.log, &cancel_trace_)) return false;
-  if (!work.picture.drew()) return true;
+  // While the camera moves each request is soon replaced; a picture that is quick is finished.
+  const bool finish = request.moving && whole_s > 0.0 && whole_s <= kQuickFrame_s;
+  if (!draw_parts(request, finish ? nullptr : &cancel_trace_)) return false;
+  if (work.picture.drew()) take_frame(request);
+  return true;
+}
+
+bool PaneWorker::draw_parts(const PaneRequest& request, const std::atomic<bool>* cancel) {
+  Work& work = *work_;
+  for (;;) {
+    if (!work.picture.trace(work.tracer, request, 1, work.log, cancel)) return false;
+    if (work.picture.complete()) return true;
+    const Refinement& refinement = *work.picture.refinement();
+    work.seconds_a_pixel =
+        refinement.seconds() / refinement.view().samples / (double(request.width) * request.height);
+    cancel = &cancel_trace_;
+    work.picture.color(request);
+    work.inspection.look(work.tracer, request, &cancel_trace_);
+    publish();
+    work.refining = request;
+    const ui::RefinementView& view = refinement.view();
+    const double left_s = refinement.seconds() / view.samples * (view.wanted - view.samples);
+    // Frames of an animation are finished where that is soon.
+    if (left_s <= kQuickFrame_s ? superseded(request) : newer_wanted()) return false;
+    set_status(ui::PaneState::working,
+               fmt::format("refining, {} of {} samples", view.samples, view.wanted));
+  }
+}
+
+void PaneWorker::take_frame(const PaneRequest& request) {
+  Work& work = *work_;
+  const double pixels = double(request.width) * request.height;
+  const Refinement* refinement = work.picture.refinement();
   ui::FrameFigures figures = figures_of(work.log);
-  figures.rays = traces_rays(*request.device) ? std::uint64_t(pixels) : 0;
+  add_rays(
+      figures, refinement != nullptr ? refinement->rays() : work.tracer.renderer()->last_rays(),
+      traces_rays(*request.device) ? std::uint64_t(pixels) * std::uint64_t(work.tracer.samples())
+                                   : 0);
   figures.uploaded_bytes = work.tracer.uploaded_bytes();
-  if (figures.render_s) work.seconds_a_pixel = *figures.render_s / pixels;
+  if (figures.render_s) {
+    work.tracer.learn_frame(*figures.render_s);
+    work.seconds_a_pixel = *figures.render_s / pixels / work.tracer.samples();
+  }
   work.frame = figures;
   if (setup_.on_frame && !work.log.spans().empty()) {
     setup_.on_frame(row_of(request, work.log, work.tracer.triangles().triangles.size()));
   }
-  return true;
-}
-
-void PaneWorker::measure(const PaneRequest& request, SlotJob& job) {
-  Work& work = *work_;
-  if (!request.device || !request.scene || request.width <= 0 || request.cancelled) return;
-  work.log.tell(nullptr);
-  work.log.clear();
-  set_status(ui::PaneState::working, "preparing a slot");
-  work.tracer.prepare(unobserved(request), work.log, &watch_);
-  if (work.listener_device != request.device) {
-    work.listener = setup_.monitor->listener(*request.device);
-    work.listener_device = request.device;
-  }
-  work.log.tell(work.listener.get());
-  measure_operations(request, job);
-  job.ran = true;
-  work.picture.take_drawn(work.tracer, request);
-  work.picture.color(request);
-  ui::FrameFigures figures = figures_of(work.log);
-  figures.rays = traces_rays(*request.device)
-                     ? std::uint64_t(request.width) * std::uint64_t(request.height)
-                     : 0;
-  figures.uploaded_bytes = work.tracer.uploaded_bytes();
-  work.frame = figures;
-  work.inspection.look(work.tracer, request, &cancel_trace_);
-  set_status(ui::PaneState::ready);
-  publish();
-}
-
-void PaneWorker::measure_operations(const PaneRequest& request, const SlotJob& job) {
-  Work& work = *work_;
-  const bool animated = request.scene->animated();
-  const bool forced = job.forced && !animated;
-  const WorkloadSpec spec = workload_of(request, forced);
-  const energy::Clock& clock = setup_.monitor->clock();
-  const double step_s = frame_step_s(*request.scene);
-  PaneRequest frame = unobserved(request);
-
-  Slot slot;
-  slot.idle = false;
-  slot.configuration = configuration_of(spec, work.tracer.triangles().triangles.size());
-  if (traces_rays(*request.device)) slot.rays = double(request.width) * request.height;
-  set_status(ui::PaneState::working, "measuring");
-  in_slot_ = true;
-  setup_.attribution->slot_began(slot);
-  const energy::Seconds end = clock.now() + job.length;
-  try {
-    do {
-      work.log.clear();
-      const energy::Seconds began = clock.now();
-      setup_.attribution->begin_operation();
-      if (animated) {
-        // The middle of a step: rounding cannot move it over the border of a sequence's frame.
-        frame.time_s = (static_cast<double>(work.slot_frame++) + 0.5) * step_s;
-        work.tracer.prepare(frame, work.log, nullptr);
-      } else if (forced) {
-        work.tracer.follow_forced(frame, work.log);
-      }
-      work.tracer.draw(frame.camera, frame.width, frame.height, work.log, nullptr);
-      setup_.attribution->operation(work.log.spans(), began, clock.now());
-    } while (clock.now() < end && !job.stop->load(std::memory_order_relaxed));
-  } catch (...) {
-    setup_.attribution->slot_ended();
-    throw;
-  }
-  setup_.attribution->slot_ended();
 }
 
 void PaneWorker::publish() {
@@ -337,7 +295,12 @@ void PaneWorker::publish() {
   output->frame = work.frame;
   output->device = work.tracer.device_text();
   output->software = work.tracer.device_is_software();
+  output->break_even_frames = work.tracer.break_even_frames();
   output->refits_on_device = work.tracer.fitted_on_device();
+  if (work.tracer.scene()) {
+    output->left_out =
+        scene::left_out(*work.tracer.scene(), work.tracer.triangles(), work.tracer.rays());
+  }
   output->triangles = work.tracer.triangles().triangles.size();
   output->memory_bytes += work.tracer.memory_bytes();
   {

@@ -44,6 +44,8 @@ class PaneWorker {
 
   /// Explore mode's work stops after the step under way (true) or goes on (false).
   void hold(bool held);
+  /// Whether it is held and does nothing.
+  [[nodiscard]] bool at_rest() const;
   /// Runs operations of the latest request one after the other for so long, as one slot of measure
   /// mode; before that, whatever has to be there is made, unmeasured. Called by the scheduler's
   /// thread, which it blocks; returns early once `stop` is set. False if there is nothing to run.
@@ -68,7 +70,12 @@ class PaneWorker {
   bool trace(const PaneRequest& request);
   void set_status(ui::PaneState state, std::string doing = {}, std::string problem = {});
   void publish();
+  bool draw_parts(const PaneRequest& request, const std::atomic<bool>* cancel);
+  void take_frame(const PaneRequest& request);
+  void tell_rays(const PaneRequest& request, Slot& slot);
   [[nodiscard]] bool superseded(const PaneRequest& request) const;
+  /// Whether something else is to be looked at before the next part of a picture.
+  [[nodiscard]] bool newer_wanted() const;
 
   Setup setup_;
   mutable std::mutex mutex_;
@@ -78,6 +85,7 @@ class PaneWorker {
   PaneRequest latest_;
   SlotJob* job_ = nullptr;
   bool held_ = false;
+  bool busy_ = false;
   bool stop_ = false;
   PaneStatus status_;
   std::shared_ptr<const PaneOutput> output_;

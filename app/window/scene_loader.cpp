@@ -2,6 +2,7 @@
 
 #include "app/window/steady_time.h"
 #include "app/window/thread_priority.h"
+#include "scene/left_out.h"
 #include "scene/scene_file.h"
 #include "scene/triangles.h"
 
@@ -43,9 +44,10 @@ void SceneLoader::Job::run(const std::vector<std::string>& search_path,
     try {
       scene::TriangleList triangles;
       scene::update_triangles(*scene, 0.0, triangles);
-      auto found = std::make_shared<const scene::SceneInfo>(scene::describe(*scene, triangles));
+      Described found{std::make_shared<const scene::SceneInfo>(scene::describe(*scene, triangles)),
+                      scene::needs_of(*scene, triangles, scene::every_ray())};
       const std::lock_guard lock(mutex);
-      info = std::move(found);
+      described = std::move(found);
     } catch (const std::exception&) {
       // A scene that cannot be described is shown without figures.
     }
@@ -79,10 +81,10 @@ std::optional<SceneLoader::Loaded> SceneLoader::take_scene() {
   return std::exchange(job_->result, std::nullopt);
 }
 
-std::shared_ptr<const scene::SceneInfo> SceneLoader::take_info() {
-  if (!job_) return nullptr;
+std::optional<SceneLoader::Described> SceneLoader::take_info() {
+  if (!job_) return std::nullopt;
   const std::lock_guard lock(job_->mutex);
-  return std::exchange(job_->info, nullptr);
+  return std::exchange(job_->described, std::nullopt);
 }
 
 std::string SceneLoader::doing() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/load_watch.h"
+#include "scene/needs.h"
 #include "scene/scene.h"
 #include "scene/scene_info.h"
 
@@ -37,8 +38,12 @@ class SceneLoader {
     std::string problem;                        ///< one line; empty if it was cancelled
   };
   std::optional<Loaded> take_scene();
-  /// The figures of the last scene, once they are there.
-  std::shared_ptr<const scene::SceneInfo> take_info();
+  /// What is known of the last scene, once it is there.
+  struct Described {
+    std::shared_ptr<const scene::SceneInfo> info;
+    scene::Needs could_use;  ///< with every kind of ray
+  };
+  std::optional<Described> take_info();
 
   [[nodiscard]] bool loading() const { return job_ && !job_->loaded.load(); }
   [[nodiscard]] std::string doing() const;
@@ -55,7 +60,7 @@ class SceneLoader {
     double since_s = 0.0;
     std::mutex mutex;
     std::optional<Loaded> result;
-    std::shared_ptr<const scene::SceneInfo> info;
+    std::optional<Described> described;
 
     void run(const std::vector<std::string>& search_path, const std::function<void()>& wake);
   };

@@ -20,6 +20,10 @@ void SettingsWriter::seed(const char* key, std::uint64_t& value) {
   put(key, fmt::format("{}", value));
 }
 
+void SettingsWriter::seed(const char* key, std::uint32_t& value) {
+  put(key, std::int64_t{value});
+}
+
 void SettingsWriter::texts(const char* key, std::vector<std::string>& values) {
   toml::array array;
   for (const std::string& value : values) array.push_back(value);
@@ -79,6 +83,17 @@ void SettingsReader::seed(const char* key, std::uint64_t& value) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size()) {
     warn(key, "it takes a whole number in quotation marks");
+  }
+}
+
+void SettingsReader::seed(const char* key, std::uint32_t& value) {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) return;
+  const auto read = node->value_exact<std::int64_t>();
+  if (read && *read >= 0 && *read <= std::int64_t{0xFFFFFFFF}) {
+    value = static_cast<std::uint32_t>(*read);
+  } else {
+    warn(key, "it takes a whole number from 0 to 4294967295");
   }
 }
 

@@ -35,6 +35,7 @@ class SettingsWriter {
   void number(const char* key, float& value, NumberLimits limits);
   void integer(const char* key, int& value, NumberLimits limits);
   void seed(const char* key, std::uint64_t& value);
+  void seed(const char* key, std::uint32_t& value);
   void text(const char* key, std::string& value) { put(key, value); }
   void texts(const char* key, std::vector<std::string>& values);
   void vector(const char* key, glm::vec3& value);
@@ -64,6 +65,7 @@ class SettingsReader {
   void number(const char* key, float& value, NumberLimits limits);
   void integer(const char* key, int& value, NumberLimits limits);
   void seed(const char* key, std::uint64_t& value);
+  void seed(const char* key, std::uint32_t& value);
   void text(const char* key, std::string& value);
   void texts(const char* key, std::vector<std::string>& values);
   void vector(const char* key, glm::vec3& value);

@@ -30,6 +30,7 @@ template <class Archive>
 void visit_structure_settings(Archive& archive, accel::GridSettings& grid) {
   archive.integer("cells_per_axis", grid.cells_per_axis, {0, 1024});
   archive.number("density", grid.density, {0.01, 16});
+  archive.integer("most_references", grid.most_references, {1, 1024});
 }
 
 template <class Archive>
@@ -43,6 +44,7 @@ void visit_structure_settings(Archive& archive, accel::KdTreeSettings& kd) {
   archive.number("traversal_cost", kd.traversal_cost, {0.001, 1e6});
   archive.number("intersection_cost", kd.intersection_cost, {0.001, 1e6});
   archive.number("empty_bonus", kd.empty_bonus, {0, 0.99});
+  archive.integer("most_references", kd.most_references, {2, 1024});
 }
 
 template <class Archive>
@@ -50,6 +52,9 @@ void visit_structure_settings(Archive& archive, accel::BvhSettings& bvh) {
   archive.word("update_case", bvh.update_case,
                Words<accel::UpdateCase>{accel::to_string, accel::parse_update_case});
   archive.seed("seed", bvh.seed);
+  archive.word("auto_rule", bvh.auto_rule,
+               Words<accel::AutoRule>{accel::to_string, accel::parse_auto_rule});
+  archive.number("rebuild_at", bvh.rebuild_at, {1.001, 1e6});
 }
 
 template <class Archive>
@@ -59,12 +64,15 @@ void visit_structure(Archive& archive, accel::StructureSpec& spec) {
                Words<accel::StructureKind>{accel::to_string, accel::parse_structure_kind});
   // The kind decides which settings there are.
   if (kind != spec.kind) {
-    const accel::MemoryMode memory = spec.memory;
+    const accel::StructureSpec before = spec;
     spec = accel::default_spec(kind);
-    spec.memory = memory;
+    spec.memory = before.memory;
+    spec.intersection = before.intersection;
   }
   archive.word("memory", spec.memory,
                Words<accel::MemoryMode>{accel::to_string, accel::parse_memory_mode});
+  archive.word("intersection", spec.intersection,
+               Words<accel::IntersectionMode>{accel::to_string, accel::parse_intersection_mode});
   std::visit([&](auto& settings) { visit_structure_settings(archive, settings); }, spec.settings);
 }
 
@@ -79,6 +87,17 @@ void visit_pane(Archive& archive, ui::PaneSettings& pane) {
   archive.integer("custom_height", pane.custom_height, {1, 16384});
   archive.integer("threads", pane.threads, {0, 4096});
   archive.table("structure", [&](Archive& inner) { visit_structure(inner, pane.structure); });
+}
+
+template <class Archive>
+void visit_rays(Archive& archive, scene::RaySettings& rays) {
+  archive.flag("shadows", rays.shadows);
+  archive.flag("reflections", rays.reflections);
+  archive.flag("refractions", rays.refractions);
+  archive.flag("textures", rays.textures);
+  archive.integer("depth", rays.depth, {0, scene::kMostDepth});
+  archive.integer("samples", rays.samples, {1, scene::kMostSamples});
+  archive.seed("seed", rays.seed);
 }
 
 template <class Archive>
@@ -148,6 +167,7 @@ template <class Archive>
 void visit_settings(Archive& archive, ui::Settings& settings) {
   archive.table("left_pane", [&](Archive& inner) { visit_pane(inner, settings.panes[0]); });
   archive.table("right_pane", [&](Archive& inner) { visit_pane(inner, settings.panes[1]); });
+  archive.table("rays", [&](Archive& inner) { visit_rays(inner, settings.rays); });
   archive.table("overlay", [&](Archive& inner) { visit_overlay(inner, settings.overlay); });
   archive.table("heatmap", [&](Archive& inner) { visit_heatmap(inner, settings.heatmap); });
   archive.table("animation", [&](Archive& inner) {

@@ -35,6 +35,26 @@ std::string first_reason(const LiveFigures& figures) {
 
 }  // namespace
 
+namespace {
+
+/// What the rays of a kind came to: "<kind>_rays" and "<kind>_ms"; "<kind>_joules" only has its
+/// place.
+void set_ray_counter(const Slot& slot, double render_s, energy::Counter& counter) {
+  for (std::size_t i = 0; i < scene::kRayKinds; ++i) {
+    const std::string kind(scene::to_string(static_cast<scene::RayKind>(i)));
+    const Slot::Kind& rays = slot.kinds[i];
+    const bool traced = rays.rays.value_or(0.0) > 0.0;
+    if (counter.name == kind + "_rays") counter.value = rays.rays;
+    if (counter.name == kind + "_ms") {
+      counter.unavailable = traced && !rays.share;
+      if (traced && rays.share) counter.value = *rays.share * render_s * 1e3;
+    }
+    if (counter.name == kind + "_joules") counter.unavailable = traced;
+  }
+}
+
+}  // namespace
+
 std::vector<energy::Counter> summary_counters(const Slot& slot, const energy::SummaryRow& summary) {
   std::vector<energy::Counter> counters;
   const double share = summary.shares[Phase::render].value_or(0.0);
@@ -53,6 +73,7 @@ std::vector<energy::Counter> summary_counters(const Slot& slot, const energy::Su
     if (counter.name == "joules_per_mray") counter.unavailable = slot.rays.has_value();
     if (counter.name == "joules_per_pixel") counter.unavailable = picture;
     if (counter.name == "energy_delay_js") counter.unavailable = true;
+    set_ray_counter(slot, render, counter);
     counters.push_back(std::move(counter));
   }
   return counters;

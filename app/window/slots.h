@@ -4,7 +4,9 @@
 #include "energy/phase_log.h"
 #include "energy/session.h"
 #include "energy/workload.h"
+#include "scene/ray_settings.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,7 +23,13 @@ struct Slot {
   std::vector<energy::KeyValue> configuration;
   /// Figures of the structure, by the names of counter_columns(); those not given stay empty.
   std::vector<energy::Counter> counters;
-  std::optional<double> rays;  ///< camera rays an operation, for Mrays/s
+  std::optional<double> rays;  ///< of all kinds, an operation, for Mrays/s
+  /// Of each kind: rays an operation, and their share of the render phase's time.
+  struct Kind {
+    std::optional<double> rays{};
+    std::optional<double> share{};
+  };
+  std::array<Kind, scene::kRayKinds> kinds{};
 };
 
 /// One build or one frame that was done.

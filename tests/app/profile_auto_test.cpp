@@ -27,7 +27,9 @@ class ProfileAuto : public testing::Test {
   /// Over the program's own structures and renderer.
   energy::Measurement measure(float rebuild_at) {
     spec.scene = sample("wave");
-    std::get<accel::BvhSettings>(spec.structure.settings).rebuild_at = rebuild_at;
+    auto& bvh = std::get<accel::BvhSettings>(spec.structure.settings);
+    bvh.auto_rule = accel::AutoRule::quality;
+    bvh.rebuild_at = rebuild_at;
     workload = make_workload(spec, standard_tools());
     energy::Plan plan;
     plan.warm_up = plan.run = energy::Seconds(0);
@@ -81,6 +83,59 @@ TEST_F(ProfileAuto, TheConfigurationSaysAuto) {
   for (const Phase phase : {Phase::animate, Phase::update, Phase::build, Phase::render}) {
     EXPECT_EQ(std::count(phases.begin(), phases.end(), phase), 1);
   }
+}
+
+/// A cow that flies apart within four seconds.
+std::shared_ptr<const scene::Scene> bursting() {
+  auto scene = std::make_shared<scene::Scene>(scene::load_scene("cow"));
+  scene::Deformer burst;
+  burst.kind = scene::Deformer::Kind::explode;
+  burst.amplitude = 8.0F;
+  burst.frequency_hz = 0.25F;
+  for (scene::Instance& instance : scene->instances) instance.motion = burst;
+  return scene;
+}
+
+TEST_F(ProfileAuto, ByCostsItRebuildsWhatFliesApart) {
+  spec.scene = bursting();
+  spec.size = {96, 96};
+  DynamicWorkload dynamic(spec, standard_tools());
+  dynamic.prepare();
+  EXPECT_FALSE(dynamic.auto_figures()->break_even_frames);
+  dynamic.begin_measuring();
+  energy::PhaseLog log(clock);
+  for (std::uint64_t i = 0; i < 2 * 120; ++i) {
+    log.clear();
+    dynamic.operation(log);
+  }
+  const accel::AutoFigures figures = dynamic.auto_figures().value();
+  EXPECT_EQ(figures.rebuilds + figures.updates, 2U * 120U);
+  // Once a loop at the very least, where it comes together again and a ray would meet everything.
+  EXPECT_GE(figures.rebuilds, 2U);
+  EXPECT_GE(figures.updates, 1U);
+  EXPECT_GT(figures.break_even_at_rebuild.value(), 0.0);
+}
+
+TEST_F(ProfileAuto, WhereUpdatesAreDearInJoulesItBuilds) {
+  spec.scene = bursting();
+  DynamicWorkload dynamic(spec, standard_tools());
+  energy::PerPhase<double> watts;
+  watts.fill(1.0);
+  watts[Phase::update] = 1e6;
+  dynamic.set_phase_weights(watts);
+  dynamic.prepare();
+  energy::PhaseLog log(clock);
+  for (std::uint64_t i = 0; i < kFrames; ++i) {
+    log.clear();
+    dynamic.operation(log);
+  }
+  EXPECT_EQ(dynamic.auto_figures()->updates, 1U) << "the one that is measured";
+}
+
+TEST_F(ProfileAuto, OtherPoliciesHaveNoSuchFigures) {
+  spec.scene = bursting();
+  spec.policy = Policy::refit;
+  EXPECT_FALSE(DynamicWorkload(spec, standard_tools()).auto_figures());
 }
 
 TEST_F(ProfileAuto, OnADeviceTheHostFitsAndSends) {
