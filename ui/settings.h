@@ -2,6 +2,7 @@
 
 #include "accel/settings.h"
 #include "renderer/heatmap.h"
+#include "scene/ray_settings.h"
 
 #include <array>
 #include <cstddef>
@@ -122,6 +123,7 @@ struct EnergySettings {
 /// Everything that undo brings back and that is kept from run to run.
 struct Settings {
   std::array<PaneSettings, kPaneCount> panes;
+  scene::RaySettings rays;  ///< of both panes: they are to be compared
   OverlaySettings overlay;
   HeatmapSettings heatmap;
   AnimationSettings animation;

@@ -42,6 +42,9 @@ void pane_changes(const Settings& before, const Settings& after, std::size_t pan
   if (a.content != b.content) names.push_back(fmt::format("{}: {}", name, to_string(b.content)));
   if (a.structure.kind != b.structure.kind) {
     names.push_back(fmt::format("structure of {}: {}", name, to_string(b.structure.kind)));
+  } else if (a.structure.intersection != b.structure.intersection) {
+    names.push_back(
+        fmt::format("intersection of {}: {}", name, to_string(b.structure.intersection)));
   } else if (a.structure.memory != b.structure.memory) {
     names.push_back(fmt::format("memory of {}: {}", name, to_string(b.structure.memory)));
   } else if (a.structure != b.structure) {
@@ -55,6 +58,13 @@ void pane_changes(const Settings& before, const Settings& after, std::size_t pan
     names.push_back(b.threads == 0 ? fmt::format("threads of {}: all", name)
                                    : fmt::format("threads of {}: {}", name, b.threads));
   }
+}
+
+std::string rays_change(const scene::RaySettings& a, const scene::RaySettings& b) {
+  if (scene::ray_list(a) != scene::ray_list(b)) return "rays: " + scene::ray_list(b);
+  if (a.samples != b.samples) return fmt::format("samples: {}", b.samples);
+  if (a.depth != b.depth) return fmt::format("depth of rays: {}", b.depth);
+  return fmt::format("seed of samples: {}", b.seed);
 }
 
 std::string overlay_change(const OverlaySettings& a, const OverlaySettings& b) {
@@ -90,6 +100,7 @@ bool same_animation(AnimationSettings a, const AnimationSettings& b) {
 std::string change_name(const Settings& before, const Settings& after) {
   std::vector<std::string> names;
   for (std::size_t pane = 0; pane < kPaneCount; ++pane) pane_changes(before, after, pane, names);
+  if (before.rays != after.rays) names.push_back(rays_change(before.rays, after.rays));
   if (before.overlay != after.overlay) {
     names.push_back(overlay_change(before.overlay, after.overlay));
   }

@@ -5,7 +5,10 @@
 #include "energy/provenance.h"
 #include "renderer/heatmap.h"
 #include "scene/camera.h"
+#include "scene/left_out.h"
+#include "scene/needs.h"
 #include "scene/ray.h"
+#include "scene/ray_settings.h"
 #include "scene/scene.h"
 #include "scene/scene_info.h"
 #include "ui/settings.h"
@@ -49,6 +52,8 @@ struct WorkView {
 struct SceneView {
   std::shared_ptr<const scene::Scene> scene;     ///< null before the first one is there
   std::shared_ptr<const scene::SceneInfo> info;  ///< null until it is known
+  scene::Needs could_use;                        ///< with every kind of ray; known with `info`
+  std::vector<scene::LeftOut> left_out;          ///< of the panes' copies, as they are set
   bool animated = false;
   double duration_s = 0.0;  ///< of one loop of the animation
   std::vector<std::string> warnings;
@@ -65,6 +70,13 @@ enum class PaneState {
   failed,
 };
 
+/// Rays of one kind in a frame.
+struct RayKindFigures {
+  std::uint64_t rays = 0;
+  /// Of the time that rendering took, in [0, 1]; nothing where it was not told apart.
+  std::optional<double> share{};
+};
+
 /// What the last frame cost. Times that did not occur are missing, not 0.
 struct FrameFigures {
   std::optional<double> animate_s;
@@ -72,7 +84,8 @@ struct FrameFigures {
   std::optional<double> update_s;
   std::optional<double> transfer_s;
   std::optional<double> render_s;
-  std::uint64_t rays = 0;  ///< 0: no rays were traced
+  std::uint64_t rays = 0;  ///< of all kinds; 0: no rays were traced
+  std::array<RayKindFigures, scene::kRayKinds> kinds{};
   std::uint64_t uploaded_bytes = 0;
   [[nodiscard]] double total_s() const;
 };
@@ -107,6 +120,22 @@ struct PixelView {
   std::uint32_t triangle_tests = 0;
 };
 
+/// How well a picture was known after some time of drawing.
+struct PictureError {
+  double elapsed_s = 0.0;
+  int samples = 0;
+  double rmse = 0.0;  ///< estimated; 1: as much as black differs from white
+};
+
+/// A picture of several rays a pixel that is drawn part by part.
+struct RefinementView {
+  int samples = 0;  ///< so far
+  int wanted = 1;
+  std::vector<PictureError> errors;  ///< after each part that allows an estimate
+
+  [[nodiscard]] bool complete() const { return samples >= wanted; }
+};
+
 /// One pane: a tracer's picture and what is known of it.
 struct PaneView {
   PaneState state = PaneState::off;
@@ -117,10 +146,13 @@ struct PaneView {
   int height = 0;
   int traced_width = 0;  ///< of what is shown: smaller while it is refined
   int traced_height = 0;
-  std::optional<FrameFigures> frame;   ///< of the last whole frame
+  std::optional<FrameFigures> frame;         ///< of the last whole frame
+  std::optional<RefinementView> refinement;  ///< of pictures of several rays a pixel
   std::optional<double> frames_per_s;  ///< over the last second or so; none while nothing changes
   /// An operation, gross; in measure mode.
   EnergyFigure joules_per_frame;
+  /// The same of rendering alone; without a value where phases are not told apart.
+  EnergyFigure render_joules;
   std::string device;     ///< "CPU, 2 threads", "llvmpipe (…), software, runs on the CPU"
   bool software = false;  ///< the graphics device is a rasteriser in software
   bool my_slot = false;   ///< measure mode: it is this pane that runs now
@@ -129,6 +161,9 @@ struct PaneView {
   std::shared_ptr<const accel::NodeTable> nodes;   ///< null unless they are shown
   std::shared_ptr<const accel::StructureProfile> profile;
   std::shared_ptr<const accel::NodeValues> node_values;  ///< one a node, by OverlayColor
+  /// Policy auto: frames in which a build now would pay for itself; nothing where that is not
+  /// known.
+  std::optional<double> break_even_frames;
   std::optional<double> sah_decay;  ///< SAH cost now over that of the last build
   std::size_t nodes_drawn = 0;
   std::size_t nodes_hidden_small = 0;             ///< left out for their size or the limit
@@ -164,6 +199,15 @@ struct PhaseFigure {
   EnergyFigure joules;            ///< an operation, gross
 };
 
+/// Rays of one kind in an operation, on average.
+struct RayKindCost {
+  scene::RayKind kind = scene::RayKind::camera;
+  std::optional<double> rays;
+  std::optional<double> seconds;
+  /// Of the render phase, split by time.
+  EnergyFigure joules;
+};
+
 /// One point of error against run time.
 struct ErrorPoint {
   double elapsed_s = 0.0;
@@ -185,9 +229,16 @@ struct ConfigurationView {
   EnergyFigure joules;      ///< an operation, gross
   EnergyFigure net_joules;  ///< above idle
   std::vector<PhaseFigure> phases;
+  std::vector<RayKindCost> rays;  ///< of the kinds that were traced; empty where that is not known
   std::vector<ErrorPoint> time_error;
   std::vector<ErrorPoint> joules_error;
   std::vector<std::string> notes;
+};
+
+/// The error of a pane's picture of several rays a pixel, as it fell while it was drawn.
+struct PictureErrorView {
+  std::string label;  ///< "cpu bvh-median, picture"
+  std::vector<PictureError> errors;
 };
 
 struct SlotView {
@@ -210,7 +261,8 @@ struct PlotData {
   std::vector<SlotView> slots;
   std::vector<AnnotationView> annotations;
   std::vector<ConfigurationView> configurations;
-  double now_s = 0.0;  ///< the right end of the time axis
+  std::vector<PictureErrorView> pictures;  ///< of the panes; none of sessions
+  double now_s = 0.0;                      ///< the right end of the time axis
 };
 
 struct MeasureView {

@@ -32,6 +32,8 @@ KeptState unusual() {
   left.threads = 3;
   ui::PaneSettings& right = kept.settings.panes[1];
   right.structure.settings = accel::BvhSettings{accel::UpdateCase::worst, ~std::uint64_t{0}};
+  right.structure.intersection = accel::IntersectionMode::watertight;
+  kept.settings.rays = {true, true, true, false, 7, 64, 0xFFFFFFFFU};
   kept.settings.overlay = {true,
                            ui::OverlayColor::sah,
                            ui::HiddenLines::x_ray,
@@ -89,6 +91,14 @@ TEST(SettingsFile, BringsBackEveryField) {
   EXPECT_TRUE(read.warnings.empty()) << read.warnings.front();
   EXPECT_EQ(read.kept.settings, kept.settings);
   EXPECT_EQ(read.kept.preferences, kept.preferences);
+}
+
+TEST(SettingsFile, FilesFromBeforeThereWereRaysMeanPlainOnes) {
+  const KeptStateRead read =
+      read_texts("[left_pane.structure]\nkind = \"kd-sah\"\n[rays]\nsamples = 0\n", "");
+  EXPECT_EQ(read.warnings.size(), 1U);
+  EXPECT_EQ(read.kept.settings.rays, scene::RaySettings{});
+  EXPECT_EQ(read.kept.settings.panes[0].structure.intersection, accel::IntersectionMode::precise);
 }
 
 TEST(SettingsFile, BringsBackEveryStructure) {

@@ -24,6 +24,12 @@ TEST(ChangeName, NamesWhatChanged) {
   after.panes[1].device = ui::PaneDevice::cpu;
   EXPECT_EQ(ui::change_name(before, after), "device of the right pane: cpu");
   after = before;
+  after.rays.shadows = true;
+  EXPECT_EQ(ui::change_name(before, after), "rays: shadows,textures");
+  after = before;
+  after.panes[0].structure.intersection = accel::IntersectionMode::watertight;
+  EXPECT_EQ(ui::change_name(before, after), "intersection of pane CPU: watertight");
+  after = before;
   after.animation.playing = true;
   EXPECT_EQ(ui::change_name(before, after), "");
 }

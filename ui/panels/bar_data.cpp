@@ -2,6 +2,7 @@
 
 #include "ui/panels/plot_parts.h"
 #include "ui/panels/session_parts.h"
+#include "ui/plot/value_text.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +21,35 @@ BarPart energy_part(const PhaseFigure& phase) {
           .value = phase.joules.value,
           .half_width = phase.joules.half_width,
           .provenance = phase.joules.provenance};
+}
+
+/// "65,536 rays an operation in 0.42 ms, 12 mJ".
+std::string rays_text(const RayKindCost& cost) {
+  std::string text = value_text(*cost.rays, "", 4) + " rays an operation";
+  if (cost.seconds) text += " in " + value_text(*cost.seconds, "s", 3);
+  if (cost.joules.value) text += ", " + value_text(*cost.joules.value, "J", 3);
+  return text;
+}
+
+/// Rendering's part in as many parts as there were kinds of rays; itself where there was one, or
+/// they are not told apart. `value_of`: what of a kind is shown.
+template <class ValueOf>
+std::vector<BarPart> split_render(const BarPart& whole, const std::vector<RayKindCost>& rays,
+                                  const ValueOf& value_of) {
+  std::vector<BarPart> parts;
+  for (const RayKindCost& kind : rays) {
+    const std::optional<double> value = value_of(kind);
+    if (!value) return {whole};
+    BarPart part = whole;
+    part.name = fmt::format("render: {} rays", scene::to_string(kind.kind));
+    part.value = value;
+    part.half_width.reset();
+    part.color = ray_color(kind.kind);
+    part.detail = rays_text(kind);
+    parts.push_back(std::move(part));
+  }
+  if (parts.size() < 2) return {whole};
+  return parts;
 }
 
 BarPart whole_part(const EnergyFigure& figure) {
@@ -54,7 +84,17 @@ void join_unknown(const EnergyFigure& total, std::vector<BarPart>& parts) {
 
 Bar energy_bar(const ConfigurationView& configuration) {
   Bar bar{.name = "energy", .unit = "J", .half_width = {}, .parts = {}};
-  for (const PhaseFigure& phase : configuration.phases) bar.parts.push_back(energy_part(phase));
+  for (const PhaseFigure& phase : configuration.phases) {
+    const BarPart part = energy_part(phase);
+    if (phase.phase != "render" || !part.value) {
+      bar.parts.push_back(part);
+      continue;
+    }
+    for (BarPart& kind : split_render(part, configuration.rays,
+                                      [](const RayKindCost& cost) { return cost.joules.value; })) {
+      bar.parts.push_back(std::move(kind));
+    }
+  }
   join_unknown(configuration.joules, bar.parts);
   if (bar.parts.empty()) bar.parts.push_back(whole_part(configuration.joules));
   if (configuration.joules.value) bar.half_width = configuration.joules.half_width;
@@ -67,11 +107,19 @@ Bar time_bar(const ConfigurationView& configuration) {
   const energy::Provenance clock{energy::Origin::measured, "clock"};
   for (const PhaseFigure& phase : configuration.phases) {
     if (!phase.seconds) continue;
-    bar.parts.push_back({.name = phase.phase,
-                         .color = phase_color(phase.phase),
-                         .value = phase.seconds,
-                         .half_width = {},
-                         .provenance = clock});
+    const BarPart part{.name = phase.phase,
+                       .color = phase_color(phase.phase),
+                       .value = phase.seconds,
+                       .half_width = {},
+                       .provenance = clock};
+    if (phase.phase != "render") {
+      bar.parts.push_back(part);
+      continue;
+    }
+    for (BarPart& kind : split_render(part, configuration.rays,
+                                      [](const RayKindCost& cost) { return cost.seconds; })) {
+      bar.parts.push_back(std::move(kind));
+    }
   }
   if (!bar.parts.empty()) return bar;
   const energy::Provenance none{energy::Origin::unavailable, "no operation has ended yet"};

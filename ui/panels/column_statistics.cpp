@@ -156,6 +156,10 @@ std::vector<Row> shape_rows() {
       {"sah_decay", "SAH decay",
        "SAH cost now over that of the last build: above 1, refitting has made rays dearer.",
        [](const PaneView& pane) { return pane.sah_decay; }, real_text},
+      {"break_even", "build pays after",
+       "Policy auto: frames in which a build now would have paid for itself, by what building, "
+       "updating and tracing were seen to cost in this pane.",
+       [](const PaneView& pane) { return pane.break_even_frames; }, real_text},
       {"pane_memory", "memory of the pane",
        "Triangles, structure and pictures of this pane together; 1 KiB = 1024 bytes.",
        [](const PaneView& pane) -> Value {

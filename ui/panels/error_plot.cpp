@@ -27,7 +27,9 @@ constexpr const char* kHelp =
     "energy dashed. The faint slope is that of 1/sqrt(t), by which the error of independent "
     "samples "
     "falls; the line across is the stop target. Intervals of fewer than 8 independent samples tell "
-    "next to nothing and are left out.";
+    "next to nothing and are left out.\n"
+    "Pictures of several rays a pixel: the estimated error of the picture itself, as root mean "
+    "square over its pixels in % of white, over the time spent drawing it.";
 
 using Places = std::vector<std::size_t>;
 
@@ -64,6 +66,25 @@ ErrorSeries series_of(std::string name, std::size_t color, const Points& points,
   return series;
 }
 
+/// The pictures' own errors, in colours that the configurations have left.
+void add_pictures(const PlotData& plots, std::size_t first_color, ErrorData& data) {
+  for (std::size_t i = 0; i < plots.pictures.size(); ++i) {
+    const PictureErrorView& picture = plots.pictures[i];
+    ErrorSeries series;
+    series.name = picture.label;
+    series.group = picture.label;
+    series.quantity = "picture";
+    series.aims = false;
+    series.color = series_color(first_color + i);
+    series.provenance = {energy::Origin::measured,
+                         "estimated from how far the picture's samples differ"};
+    for (const PictureError& error : picture.errors) {
+      series.points.push_back({error.elapsed_s, error.rmse});
+    }
+    data.series.push_back(std::move(series));
+  }
+}
+
 ErrorData error_data(const PlotData& plots, const Places& places, float target_percent) {
   ErrorData data;
   if (target_percent > 0.0F) data.target = static_cast<double>(target_percent) / 100.0;
@@ -83,6 +104,7 @@ ErrorData error_data(const PlotData& plots, const Places& places, float target_p
     data.series.push_back(std::move(time));
     data.series.push_back(std::move(energy));
   }
+  add_pictures(plots, places.size(), data);
   return data;
 }
 
@@ -93,6 +115,7 @@ std::string estimate_text(const ErrorData& data) {
   bool all_reached = true;
   bool any = false;
   for (const ErrorSeries& series : data.series) {
+    if (!series.aims) continue;
     const auto when = target_time(series, *data.target);
     if (!when) {
       if (!series.points.empty()) return {};  // of too few samples: it cannot be told

@@ -137,7 +137,9 @@ void end_card() {
 void draw_pane_state(const Rect& room, const PaneContext& context) {
   const PaneView& shown = context.shown();
   if (shown.work.active) {
-    if (shown.work.elapsed_s > kShow_s) draw_work(room, context);
+    // A picture that gets better by itself is not to be covered; the header says how far it is.
+    const bool refining = shown.work.doing.starts_with("refining");
+    if (shown.work.elapsed_s > kShow_s && !refining) draw_work(room, context);
     return;
   }
   switch (shown.state) {

@@ -1,5 +1,6 @@
 #include "ui/panels/pane_parts.h"
 #include "ui/panels/shell_parts.h"
+#include "ui/plot/plot_draw.h"
 #include "ui/plot/value_text.h"
 #include "ui/style.h"
 #include "ui/widget_map.h"
@@ -61,20 +62,71 @@ Figure energy_figure(const EnergyFigure& joules) {
   return figure;
 }
 
+/// "shadow: 65,536 rays, 0.42 ms (31 % of rendering), 12 mJ".
+std::string kind_line(const PaneView& shown, scene::RayKind kind) {
+  const RayKindFigures& rays = shown.frame->kinds[static_cast<std::size_t>(kind)];
+  std::string line = fmt::format("\n{}: {} rays", scene::to_string(kind), count_text(rays.rays));
+  if (!rays.share) return line;
+  line +=
+      fmt::format(", {} ({:.0f} % of rendering)",
+                  value_text(*shown.frame->render_s * *rays.share, "s", 3), *rays.share * 100.0);
+  if (shown.render_joules.value) {
+    line += ", " + value_text(*shown.render_joules.value * *rays.share, "J", 3);
+  }
+  return line;
+}
+
+Figure rays_figure(const PaneView& shown) {
+  const FrameFigures& frame = *shown.frame;
+  const double rate = static_cast<double>(frame.rays) / *frame.render_s;
+  const std::string text = fmt::format("{:.3g} Mrays/s", rate / 1e6);
+  Figure figure{"rays", text, text,
+                fmt::format("Millions of rays of all kinds a second while rendering: {} rays in "
+                            "{}, in the last whole frame.",
+                            count_text(frame.rays), value_text(*frame.render_s, "s", 3))};
+  const bool several =
+      frame.rays != frame.kinds[static_cast<std::size_t>(scene::RayKind::camera)].rays;
+  if (!several) return figure;
+  for (std::size_t i = 0; i < scene::kRayKinds; ++i) {
+    if (frame.kinds[i].rays > 0) figure.tip += kind_line(shown, static_cast<scene::RayKind>(i));
+  }
+  if (shown.render_joules.value) {
+    figure.tip += "\nJoules: rendering's, split by the time of each kind; " +
+                  provenance_text(shown.render_joules.provenance);
+  }
+  return figure;
+}
+
+/// How well a picture of several samples is known.
+Figure error_figure(const RefinementView& refinement) {
+  Figure figure{"samples", "", "", ""};
+  figure.text = refinement.complete()
+                    ? fmt::format("{} samples", refinement.samples)
+                    : fmt::format("{} of {} samples", refinement.samples, refinement.wanted);
+  figure.brief = fmt::format("{} spp", refinement.samples);
+  figure.tip = fmt::format("{} of {} camera rays a pixel have been drawn.", refinement.samples,
+                           refinement.wanted);
+  if (refinement.errors.empty()) return figure;
+  const std::string error = fmt::format("error ±{:.3g}", refinement.errors.back().rmse);
+  figure.text += ", " + error;
+  figure.brief = error;
+  figure.tip += "\n" + error +
+                " (RMSE estimate): by how much the picture is expected to differ from one of "
+                "endless samples, over all channels of all pixels; 1: as much as black differs "
+                "from white. From how far the samples' parts differ, as if they were independent; "
+                "stratified ones are somewhat better.";
+  return figure;
+}
+
 /// What matters most comes first.
 std::vector<Figure> figures_of(const PaneView& shown) {
   std::vector<Figure> figures;
   if (shown.frame) figures.push_back(time_figure(*shown.frame));
   figures.push_back(energy_figure(shown.joules_per_frame));
+  if (shown.refinement) figures.push_back(error_figure(*shown.refinement));
   if (shown.frame && shown.frame->rays > 0 && shown.frame->render_s &&
       *shown.frame->render_s > 0.0) {
-    const double rate = static_cast<double>(shown.frame->rays) / *shown.frame->render_s;
-    const std::string text = fmt::format("{:.3g} Mrays/s", rate / 1e6);
-    figures.push_back(
-        {"rays", text, text,
-         fmt::format("Millions of rays a second while rendering: {} rays in {}, in "
-                     "the last whole frame.",
-                     count_text(shown.frame->rays), value_text(*shown.frame->render_s, "s", 3))});
+    figures.push_back(rays_figure(shown));
   }
   if (shown.frames_per_s) {
     const std::string text = fmt::format("{:.1f} fps", *shown.frames_per_s);
@@ -109,6 +161,14 @@ Passing passing_of(const PaneContext& context) {
     passing.brief = "refining";
     passing.why = fmt::format("A coarse picture of {} pixels is shown while that of {} is traced.",
                               traced, size_text(shown.width, shown.height));
+  } else if (shown.refinement && !shown.refinement->complete()) {
+    passing.text = fmt::format("refining {:.0f} %",
+                               100.0 * shown.refinement->samples / shown.refinement->wanted);
+    passing.brief = "refining";
+    passing.why = fmt::format(
+        "The mean of {} camera rays a pixel is shown while {} are drawn, in parts of 1, 1, 2, 4, 8 "
+        "and so on.",
+        shown.refinement->samples, shown.refinement->wanted);
   }
   return passing;
 }

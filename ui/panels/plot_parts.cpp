@@ -116,4 +116,18 @@ PlotColor phase_color(std::string_view phase) {
   return PlotColor::remainder;
 }
 
+PlotColor ray_color(scene::RayKind kind) {
+  switch (kind) {
+    case scene::RayKind::camera:
+      return PlotColor::render;
+    case scene::RayKind::shadow:
+      return PlotColor::shadow_rays;
+    case scene::RayKind::reflection:
+      return PlotColor::reflection_rays;
+    case scene::RayKind::refraction:
+      return PlotColor::refraction_rays;
+  }
+  return PlotColor::render;
+}
+
 }  // namespace encore::ui

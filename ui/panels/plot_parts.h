@@ -49,5 +49,7 @@ std::optional<std::size_t> draw_end_tools(std::string_view plot, std::span<const
 
 /// The colour of a phase's name; that of the remainder for others.
 PlotColor phase_color(std::string_view phase);
+/// That of a part of rendering.
+PlotColor ray_color(scene::RayKind kind);
 
 }  // namespace encore::ui

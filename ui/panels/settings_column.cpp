@@ -94,6 +94,7 @@ void draw_settings_column(const Rect& area, const View& view, UiState& state, Co
                               ImGuiWindowFlags_AlwaysUseWindowPadding)) {
       draw_scene_section(context);
       draw_animation_section(context);
+      draw_rays_section(context);
       for (std::size_t pane = 0; pane < kPaneCount; ++pane) draw_pane_section(context, pane);
       draw_copy_structure(context);
       draw_camera_section(context);

@@ -69,6 +69,18 @@ constexpr std::array<ValueChoice<accel::MemoryMode>, 2> kMemory{{
      "every build allocates afresh and frees what the last one held"},
 }};
 
+constexpr std::array<ValueChoice<accel::IntersectionMode>, 3> kIntersections{{
+    {accel::IntersectionMode::precise, "precise",
+     "double precision wherever single precision leaves a doubt: the definition of a hit that the "
+     "others are measured by"},
+    {accel::IntersectionMode::moller_trumbore, "moller-trumbore",
+     "Moller and Trumbore 1997 in single precision: may lose hits on edges, the more the farther "
+     "away or the thinner the triangle"},
+    {accel::IntersectionMode::watertight, "watertight",
+     "Woop, Benthin and Wald 2013 in single precision: no ray slips between triangles that share "
+     "an edge"},
+}};
+
 constexpr std::array<ValueChoice<SizeChoice>, 6> kSizes{{
     {SizeChoice::window, "window", "as many pixels as the pane has"},
     {SizeChoice::square_256, "256", "256 × 256, the thesis' low resolution"},
@@ -151,6 +163,10 @@ void draw_structure(const std::string& prefix, const ColumnContext& context, Pan
   const bool brute = pane.structure.kind == StructureKind::brute;
   if (moves && !brute) draw_policy(prefix, pane);
   draw_structure_parameters(prefix.c_str(), pane, moves);
+  value_choice_row({prefix + ".intersection", "Intersection",
+                    "By which arithmetic a ray is held against a triangle; the same on every "
+                    "device. Costs time a test, but no build: the structure stays as it is."},
+                   pane.structure.intersection, kIntersections);
   if (brute) return;
   value_choice_row({prefix + ".memory", "Memory",
                     "Where a build's memory comes from. Requests to the allocator cost time and, "

@@ -25,6 +25,13 @@ constexpr std::array<ValueChoice<Logarithm>, 2> kLogarithms{{
     {Logarithm::base2, "base 2", "as PBRT has it; gives deeper trees"},
 }};
 
+constexpr std::array<ValueChoice<accel::AutoRule>, 2> kRules{{
+    {accel::AutoRule::cost, "cost",
+     "builds where building, updating and tracing were seen to cost less that way"},
+    {accel::AutoRule::quality, "quality",
+     "builds where the SAH cost has grown so far: at the same frames on every machine"},
+}};
+
 constexpr std::array<ValueChoice<UpdateCase>, 4> kCases{{
     {UpdateCase::real, "real", "those whose triangles moved"},
     {UpdateCase::best, "best", "none: every leaf is checked, nothing is written"},
@@ -44,6 +51,16 @@ void draw_grid(const std::string& prefix, GridSettings& grid) {
                             .most_slid = 256,
                             .zero = "automatic"},
              grid.cells_per_axis);
+  number_row(NumberRow<int>{.row = {prefix + ".grid.most_references", "Most references",
+                                    "References a triangle, over 4,194,304 in all, at which the "
+                                    "grid is made coarser. Too small: a coarse grid and many "
+                                    "tests a ray. Too large: long triangles across fine cells fill "
+                                    "the memory. 1 to 1,024."},
+                            .low = 1,
+                            .high = 1024,
+                            .usual = usual.most_references,
+                            .logarithmic = true},
+             grid.most_references);
   if (grid.cells_per_axis != 0) return;
   number_row(NumberRow<float>{.row = {prefix + ".grid.density", "Density",
                                       "Factor on the automatic number of cells an axis. Below 1: "
@@ -106,6 +123,20 @@ void draw_kd_leaves(const std::string& prefix, KdTreeSettings& kd) {
              kd.bad_split_margin);
 }
 
+void draw_kd_memory(const std::string& prefix, KdTreeSettings& kd) {
+  const KdTreeSettings usual;
+  number_row(NumberRow<int>{.row = {prefix + ".kd.most_references", "Most references",
+                                    "References a triangle, over 65,536 in all, and as many nodes, "
+                                    "at which the tree is ended earlier. Too small: large leaves. "
+                                    "Too large: triangles across many splits fill the memory. "
+                                    "2 to 1,024."},
+                            .low = 2,
+                            .high = 1024,
+                            .usual = usual.most_references,
+                            .logarithmic = true},
+             kd.most_references);
+}
+
 void draw_kd_sah(const std::string& prefix, KdTreeSettings& kd) {
   const KdTreeSettings usual;
   const auto cost = [&](const char* name, const char* label, const char* tip, float& value,
@@ -161,9 +192,12 @@ void draw_bvh(const std::string& prefix, BvhSettings& bvh, Policy policy) {
                    bvh.update_case, kCases);
   if (bvh.update_case == UpdateCase::average) draw_seed(prefix, bvh);
   if (policy != Policy::automatic) return;
+  value_choice_row({prefix + ".bvh.auto_rule", "Rule", "By what policy auto decides to build."},
+                   bvh.auto_rule, kRules);
   number_row(NumberRow<float>{.row = {prefix + ".bvh.rebuild_at", "Rebuild at",
                                       "Builds when the tree's SAH cost has grown to this multiple "
-                                      "of what it was after the last build. Near 1: almost every "
+                                      "of what it was after the last build; under rule cost only "
+                                      "until costs are known. Near 1: almost every "
                                       "frame. Large: never, and rays get dearer. 1.001 to "
                                       "1,000,000."},
                               .low = 1.001F,
@@ -196,6 +230,7 @@ void draw_structure_parameters(const char* prefix, PaneSettings& pane, bool move
   if (auto* kd = std::get_if<KdTreeSettings>(&spec.settings)) {
     draw_kd_depth(prefix, *kd);
     draw_kd_leaves(prefix, *kd);
+    draw_kd_memory(prefix, *kd);
     if (spec.kind == accel::StructureKind::kd_sah) draw_kd_sah(prefix, *kd);
   }
   if (auto* bvh = std::get_if<BvhSettings>(&spec.settings)) draw_bvh(prefix, *bvh, pane.policy);

@@ -123,6 +123,7 @@ void draw_scene_section(const ColumnContext& context) {
     draw_scene_figures(*scene.info);
     ImGui::TreePop();
   }
+  draw_left_out(scene);
 }
 
 }  // namespace encore::ui

@@ -33,6 +33,7 @@ struct BarPart {
   std::optional<double> value;       ///< nothing: unavailable, for provenance.detail
   std::optional<double> half_width;  ///< of its 95 % confidence interval
   energy::Provenance provenance;
+  std::string detail{};  ///< lines below the part's figures where it is pointed at
 };
 
 /// One stack, bottom part first.

@@ -47,7 +47,7 @@ std::string state_text(const ErrorSeries& series, const ErrorData& data) {
   const std::string name = series.quantity.empty() ? "" : series.quantity + ": ";
   if (const ErrorSample* last = last_point(series)) {
     std::string text = name + "\xC2\xB1" + value_text(100.0 * *last->relative_ci95, "%", 3);
-    if (data.target) text += ", " + target_text(series, *data.target);
+    if (data.target && series.aims) text += ", " + target_text(series, *data.target);
     return text;
   }
   if (!series.points.empty()) return name + few_samples(series.points.back());
@@ -198,7 +198,7 @@ void tooltip(const ErrorData& data, const ErrorHit& hit) {
     ImGui::TextUnformatted(fmt::format("from {:.3g} independent samples", *point.samples).c_str());
   }
   ImGui::TextUnformatted(provenance_text(series.provenance).c_str());
-  if (data.target) ImGui::TextUnformatted(target_text(series, *data.target).c_str());
+  if (data.target && series.aims) ImGui::TextUnformatted(target_text(series, *data.target).c_str());
   ImGui::EndTooltip();
 }
 

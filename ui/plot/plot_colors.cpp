@@ -29,6 +29,9 @@ constexpr std::array<Pair, kPlotColorCount> kColors{{
     {rgb(0x56B4E9), rgb(0x1C78B8)},  // cpu: sky blue
     {rgb(0xF07840), rgb(0xC84E00)},  // gpu: vermilion
     {rgb(0x2CC79A), rgb(0x00795A)},  // raster: green
+    {rgb(0x2F78B8), rgb(0x003F6B)},  // shadow rays: render's blue, darker
+    {rgb(0x8CCBF2), rgb(0x3E86BE)},  // reflection rays: lighter
+    {rgb(0xC4E4FA), rgb(0x6E9CC0)},  // refraction rays: lighter still
 }};
 
 std::uint32_t pack(const Rgb& c, float alpha) {

@@ -17,8 +17,11 @@ enum class PlotColor : std::uint8_t {
   cpu,
   gpu,
   raster,
+  shadow_rays,  ///< parts of render, whose blue is that of the camera's rays
+  reflection_rays,
+  refraction_rays,
 };
-inline constexpr std::size_t kPlotColorCount = 10;
+inline constexpr std::size_t kPlotColorCount = 13;
 
 /// Red, green, blue in [0, 1].
 struct Rgb {

@@ -33,6 +33,7 @@ struct ErrorSeries {
   std::vector<ErrorSample> points;  ///< in the order of time
   energy::Provenance provenance;
   std::string reason;  ///< why there are no points
+  bool aims = true;    ///< whether ErrorData::target is said of it
 };
 
 struct ErrorData {

@@ -195,6 +195,9 @@ void tooltip(const BarData& data, const PlacedPart& at) {
                                                     ? ImGuiCol_Text
                                                     : ImGuiCol_TextDisabled),
                        "%s", line.c_str());
+    if (at.part == i && !bar.parts[i].detail.empty()) {
+      ImGui::Text("  %s", bar.parts[i].detail.c_str());
+    }
   }
   if (group.bars.size() > 1 && at.bar == 1 && group.bars[0].unit == bar.unit) {
     if (const auto change = difference(group.bars[0], bar)) {
