@@ -74,6 +74,10 @@ class AccelerationStructure {
   /// updates lose nothing, and where assess() was not called after the last change or not between
   /// the last build and the first update after it.
   [[nodiscard]] virtual std::optional<double> decay() const { return std::nullopt; }
+  /// Expected cost of a ray (SAH) as assess() last saw it; nothing for structures whose updates
+  /// lose nothing, and where nobody looked since the last change. Unlike decay() it tells builds at
+  /// different times apart: what a fresh structure costs changes as well.
+  [[nodiscard]] virtual std::optional<double> assessed_cost() const { return std::nullopt; }
   /// Whether the structure should be built instead of updated (Policy::automatic): decay() has
   /// reached what the settings allow, or is not known though updates cost quality.
   [[nodiscard]] virtual bool decayed() const { return false; }

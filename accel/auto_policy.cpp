@@ -27,8 +27,28 @@ std::optional<double> RecentMedian::value() const {
   return 0.5 * (sorted[(held - 1) / 2] + sorted[held / 2]);
 }
 
+void SteadyRate::add(double factor, std::uint64_t steps) {
+  if (!measured(factor) || steps == 0) return;
+  const double rate = std::log(factor) / static_cast<double>(steps);
+  const bool agree = (rate > 0.0) == (last_ > 0.0);
+  rate_ = agree ? std::copysign(std::min(std::abs(rate), std::abs(last_)), rate) : 0.0;
+  last_ = rate;
+}
+
+double SteadyRate::over(std::uint64_t steps) const {
+  return std::clamp(std::exp(rate_ * static_cast<double>(steps)), 0.5, 2.0);
+}
+
 double AutoPolicy::growth(double decay) const {
   return 1.0 + slope() * std::max(0.0, decay - 1.0);
+}
+
+double AutoPolicy::decay_of(std::optional<double> tree_cost) const {
+  if (!tree_cost || !built_tree_) return 1.0;
+  // A tree that was flat has no ratio; anything large says the same.
+  constexpr double kMost = 1e3;
+  if (!measured(*built_tree_)) return *tree_cost > 0.0 ? kMost : 1.0;
+  return std::clamp(*tree_cost / (*built_tree_ * tree_drift_.over(cycle_updates_)), 0.0, kMost);
 }
 
 void AutoPolicy::observe_build(double cost) {
@@ -38,16 +58,19 @@ void AutoPolicy::observe_build(double cost) {
     build_.add(cost);
     since_update_ += cost;
   }
-  // Of a tree that was never updated there is nothing to learn.
-  before_cost_ = frames_ > 1 ? traced_ : 0.0;
-  before_decay_ = decay_;
-  frames_ = 0;
+  // Of a tree that was never updated there is nothing to learn about updates.
+  before_ = {frames_ > 1 ? traced_ : 0.0, tree_cost_, built_tree_, built_trace_, cycle_updates_};
+  frames_ = cycle_updates_ = 0;
   sum_ = excess_ = previous_excess_ = since_build_ = 0.0;
+  built_trace_ = 0.0;
+  built_tree_.reset();
+  tree_cost_.reset();
   decay_ = 1.0;
 }
 
 void AutoPolicy::observe_update(double cost) {
   ++updates_;
+  ++cycle_updates_;
   if (measured(cost)) {
     update_.add(cost);
     since_build_ += cost;
@@ -56,13 +79,27 @@ void AutoPolicy::observe_update(double cost) {
   updated_ = true;
 }
 
-void AutoPolicy::learn_slope(double fresh_cost) {
+void AutoPolicy::begin_cycle(double cost, std::optional<double> tree_cost) {
+  built_trace_ = cost;
+  built_tree_ = tree_cost;
+  const std::uint64_t steps = before_.updates + 1;  // the build followed a change as well
+  if (measured(before_.fresh_trace)) trace_drift_.add(cost / before_.fresh_trace, steps);
+  if (!tree_cost || !before_.fresh_tree || !before_.tree_cost) return;
+  tree_drift_.add(*tree_cost / *before_.fresh_tree, steps);
+  if (!measured(before_.traced)) return;
+  // What a fresh tree would have been, and cost, a frame ago.
+  const double fresh_tree = *tree_cost / tree_drift_.over(1);
+  const double fresh_trace = cost / trace_drift_.over(1);
+  learn_slope(*before_.tree_cost / fresh_tree, before_.traced / fresh_trace);
+}
+
+void AutoPolicy::learn_slope(double decay, double ratio) {
   constexpr double kFade = 0.9;
   constexpr double kLeastDecay = 0.005;  // less says nothing beside the noise
-  const double x = before_decay_ - 1.0;
-  if (!measured(before_cost_) || !std::isfinite(x) || x < kLeastDecay) return;
+  const double x = decay - 1.0;
+  if (!std::isfinite(x) || x < kLeastDecay) return;
   const double line = slope() * x;
-  const double off = before_cost_ / fresh_cost - 1.0 - line;
+  const double off = ratio - 1.0 - line;
   const double y = line + std::clamp(off, -2.0 * misfit_, 2.0 * misfit_);
   misfit_ += 0.2 * (std::min(std::abs(off), 4.0 * misfit_) - misfit_);
   misfit_ = std::max(misfit_, 0.01);
@@ -79,15 +116,15 @@ void AutoPolicy::learn_slope(double fresh_cost) {
   slope_over_ = std::clamp(slope_over_, 0.02 * slope_under_, 4.0 * slope_under_);
 }
 
-void AutoPolicy::observe_frame(double cost, std::optional<double> decay) {
+void AutoPolicy::observe_frame(double cost, std::optional<double> tree_cost) {
   const bool updated = std::exchange(updated_, false);
   if (!measured(cost)) return;
-  if (frames_ == 0) learn_slope(cost);
+  if (frames_ == 0) begin_cycle(cost, tree_cost);
   traced_ = cost;
   since_build_ += cost;
   since_update_ += cost;
-  // A tree that was flat has no ratio; anything large says the same.
-  if (updated) decay_ = std::clamp(decay.value_or(1.0), 0.0, 1e3);
+  tree_cost_ = tree_cost;
+  if (updated) decay_ = decay_of(tree_cost);
   fresh_trace_.add(cost / growth(decay_));
   previous_excess_ = excess_;
   excess_ = *fresh_trace_.value() * (growth(decay_) - 1.0);
@@ -126,7 +163,7 @@ std::optional<bool> AutoPolicy::builds_next() const {
     return loss > kTrialShare * since_update_;
   }
   if (pays) return true;
-  return decay_ > 1.0 && *surplus <= kTrialShare * since_build_;
+  return decay_ != 1.0 && *surplus <= kTrialShare * since_build_;
 }
 
 std::optional<double> AutoPolicy::break_even_frames() const {

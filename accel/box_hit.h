@@ -10,9 +10,9 @@
 
 namespace encore::accel {
 
-/// 1 / component of a direction, for the distances of planes: +-inf for a zero of that sign. NaN for
-/// a component that is not zero but so small or large that its reciprocal leaves the normal range,
-/// so that its planes have no distances and never exclude anything.
+/// 1 / component of a direction, for the distances of planes: +-inf for a zero of that sign. NaN
+/// for a component that is not zero but so small or large that its reciprocal leaves the normal
+/// range, so that its planes have no distances and never exclude anything.
 inline float plane_inverse(float component) {
   const float inverse = 1.0F / component;
   return component == 0.0F || std::isnormal(inverse) ? inverse

@@ -22,6 +22,10 @@ namespace encore::accel {
 /// all say that the ray passes on the same side of a vertex, which then belongs to no triangle.)
 /// Triangles that are degenerate, or seen edge-on, to within the rounding of double precision are
 /// not hit.
+/// Every finite triangle is decided rightly, but structures find hits without fail only where
+/// coordinates of triangles and origins stay within 2^126 (8.5e37): beyond 2^127 their differences,
+/// from which plane distances come, may overflow single precision (of 151 rays through a scene of
+/// 3e38 structures missed 3 to 5, and the exact oracle's box test some, too).
 /// There is no absolute epsilon: scaling scene and ray by a power of two scales t exactly.
 bool decide_hit(const scene::Ray& ray, const scene::Triangle& triangle, std::uint32_t index,
                 scene::Hit& best);

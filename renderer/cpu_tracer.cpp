@@ -225,16 +225,17 @@ void CpuTracer::for_each_tile(int width, int height, const TileWork& work) {
   // One tile a task: tiles differ a hundredfold in cost, and a task costs far less than a tile.
   TaskHandover handover;
   const auto run_tiles = [&](const tbb::blocked_range<int>& range) {
-    handover.begin();
     for (int index = range.begin(); index < range.end(); ++index) run_tile(index);
-    handover.end();
   };
   handover.before_all();
   arena_->execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, columns * rows, 1),
-        [&run_tiles](const tbb::blocked_range<int>& range)
-            ENCORE_NOT_THREAD_SANITIZED { run_tiles(range); },
+        [&](const tbb::blocked_range<int>& range) ENCORE_NOT_THREAD_SANITIZED {
+          handover.begin();
+          run_tiles(range);
+          handover.end();
+        },
         tbb::simple_partitioner());
   });
   handover.after_all();

@@ -27,4 +27,17 @@ inline bool is_finite(const Triangle& t) {
   return is_finite(t.v0) && is_finite(t.v1) && is_finite(t.v2);
 }
 
+/// Coordinates that rays can be traced among: beyond this the differences that plane tests take
+/// leave single precision (accel/triangle_hit.h).
+inline constexpr float kLargestCoordinate = 0x1p126F;
+
+/// Whether every coordinate is a number (no NaN) and within kLargestCoordinate.
+inline bool is_traceable(const Triangle& t) {
+  const auto inside = [](const glm::vec3& p) {
+    return std::fabs(p.x) <= kLargestCoordinate && std::fabs(p.y) <= kLargestCoordinate &&
+           std::fabs(p.z) <= kLargestCoordinate;
+  };
+  return inside(t.v0) && inside(t.v1) && inside(t.v2);
+}
+
 }  // namespace encore::scene

@@ -200,7 +200,7 @@ void Update::write_attributes(const Mesh& mesh, std::size_t place, const glm::uv
   }
 }
 
-/// Writes an instance's triangles from `end_` on, leaving out those that are not finite.
+/// Writes an instance's triangles from `end_` on, leaving out those that no ray can be traced to.
 void Update::write(const Instance& instance, WrittenInstance& now) {
   now.first = end_;
   if (!now.model) return;
@@ -224,7 +224,7 @@ void Update::write(const Instance& instance, WrittenInstance& now) {
       const glm::vec3 offset = explode_offset(*deformer, now.phase, now.centre, centroid, i);
       t = make_triangle(last(t.v0 + offset), last(t.v1 + offset), last(t.v2 + offset), material);
     }
-    if (!is_finite(t)) {
+    if (!is_traceable(t)) {
       ++now.left_out;
       now.left_out_pattern = (now.left_out_pattern ^ i) * 0x100000001b3ULL + 1;
       continue;

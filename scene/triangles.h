@@ -43,7 +43,8 @@ struct TriangleList {
   /// Texture coordinates, three a triangle; empty unless some instance has a material with a
   /// texture and a mesh with coordinates. Triangles of instances without any hold zeros.
   std::vector<std::array<glm::vec2, 3>> texcoords;
-  /// Triangles left out because a coordinate was NaN or infinite at this time.
+  /// Triangles left out because a coordinate was NaN, infinite or beyond kLargestCoordinate
+  /// (triangle.h) at this time.
   std::uint64_t dropped_non_finite = 0;
   /// Grows when any vertex changed.
   std::uint64_t version = 0;

@@ -71,7 +71,9 @@ vec3 shade(vec3 ray_direction, Hit hit) {
   normal = largest_component(normal) > 0.0 ? safe_normalize(normal) : view;
 
   vec3 diffuse = vec3(0.0);
+#ifdef ENCORE_SPECULAR
   vec3 specular = vec3(0.0);
+#endif
 #ifdef ENCORE_ONE_LIGHT
   color = vec3(0.0);
   for (uint i = light_in_hand; i <= light_in_hand; ++i) {

@@ -55,6 +55,7 @@ class Bvh final : public TracedStructure<Bvh> {
   [[nodiscard]] bool can_refit() const override { return true; }
   void assess() override { quality_.assess(nodes()); }
   [[nodiscard]] std::optional<double> decay() const override { return quality_.decay(); }
+  [[nodiscard]] std::optional<double> assessed_cost() const override { return quality_.cost(); }
   [[nodiscard]] bool decayed() const override;
   [[nodiscard]] BuildStats stats() const override;
   [[nodiscard]] GpuBuffers gpu_buffers() const override;

@@ -12,10 +12,10 @@ namespace encore::accel {
 /// nodes, in order.
 double bvh_sah_cost(std::span<const gpu::BvhNode> nodes);
 
-/// Nearly the same for about a fifth of the time, for hierarchies of some size: the boxes whose area is
-/// at least 1/64 of the root's all count, found from the root down; of the others, whose number is
-/// large and weight small, a sample stands for all (32 neighbours of every 256). Small hierarchies
-/// are counted whole. Children must lie side by side.
+/// Nearly the same for about a fifth of the time, for hierarchies of some size: the boxes whose
+/// area is at least 1/64 of the root's all count, found from the root down; of the others, whose
+/// number is large and weight small, a sample stands for all (32 neighbours of every 256). Small
+/// hierarchies are counted whole. Children must lie side by side.
 double bvh_sah_cost_sampled(std::span<const gpu::BvhNode> nodes);
 
 /// How a hierarchy ages under refits. Only the ratio of its cost to what it was after the build
@@ -35,6 +35,8 @@ class BvhQuality {
   /// Cost now over that after the build, 1 or about it for a good tree. Nothing if the nodes were
   /// not looked at since the last change, or not before the first refit.
   [[nodiscard]] std::optional<double> decay() const;
+  /// The cost itself; nothing if the nodes were not looked at since the last change.
+  [[nodiscard]] std::optional<double> cost() const { return now_; }
 
  private:
   std::optional<double> built_;  ///< cost after the build

@@ -22,8 +22,9 @@ struct Waiting {
 /// origin lies. A side is passed over only if t lies outside the stretch by more than the slack.
 ///
 /// A ray that runs inside the plane has t = 0 * inf = NaN, which fails all comparisons: both sides
-/// are visited with the whole stretch; so are they along an axis without a plane_inverse(). A parallel ray beside the plane has t = +-inf, which picks
-/// the origin's side; a plane behind the origin has t < 0 <= enter, which picks the far side.
+/// are visited with the whole stretch; so are they along an axis without a plane_inverse(). A
+/// parallel ray beside the plane has t = +-inf, which picks the origin's side; a plane behind the
+/// origin has t < 0 <= enter, which picks the far side.
 template <bool AnyHit, class Tester, class Counter>
 void KdTree::trace(const Ray& ray, Hit& hit, Counter& counter) const {
   const BoxRay box_ray(ray);

@@ -67,6 +67,24 @@ TEST(Settings, AutoRebuildsAtAMultipleAboveOne) {
   EXPECT_EQ(std::get<BvhSettings>(spec.settings).rebuild_at, 1.5F);
 }
 
+TEST(Settings, AutoGoesByCostOrByQuality) {
+  StructureSpec spec = default_spec(StructureKind::bvh_median);
+  EXPECT_EQ(auto_rule(spec.settings), AutoRule::cost);
+  EXPECT_EQ(apply_setting(spec, "bvh.auto", "quality"), "");
+  EXPECT_EQ(auto_rule(spec.settings), AutoRule::quality);
+  for (const char* wrong : {"", "Cost", "speed", "1"}) {
+    const std::string message = apply_setting(spec, "bvh.auto", wrong);
+    EXPECT_NE(message.find("bvh.auto"), std::string::npos) << wrong;
+    EXPECT_NE(message.find("cost or quality"), std::string::npos) << wrong;
+  }
+  EXPECT_EQ(auto_rule(spec.settings), AutoRule::quality) << "what is wrong changes nothing";
+  EXPECT_EQ(apply_setting(spec, "bvh.auto", "cost"), "");
+  EXPECT_EQ(auto_rule(spec.settings), AutoRule::cost);
+  for (const AutoRule rule : {AutoRule::cost, AutoRule::quality}) {
+    EXPECT_EQ(parse_auto_rule(to_string(rule)), rule);
+  }
+}
+
 TEST(Settings, TheDocumentationNamesEveryKey) {
   std::ifstream in(ENCORE_SOURCE_DIR "/docs/settings.md");
   const std::string text{std::istreambuf_iterator<char>(in), {}};

@@ -28,14 +28,14 @@ TEST(AutoPolicyHits, StayRightWhileItRebuildsAnExplosion) {
   AutoPolicy policy;
   carry_out(UpdateAction::build, Policy::automatic, bvh, list.triangles);
   policy.observe_build(4.0);
-  policy.observe_frame(bvh.stats().sah_cost, bvh.decay());
+  policy.observe_frame(bvh.stats().sah_cost, bvh.assessed_cost());
   for (int frame = 1; frame <= 120; ++frame) {
     const auto change = scene::update_triangles(scene, frame / 30.0, list);
     const UpdateAction action = decide(Policy::automatic, bvh, change, policy);
     carry_out(action, Policy::automatic, bvh, list.triangles);
     if (action == UpdateAction::build) policy.observe_build(4.0);
     if (action == UpdateAction::update) policy.observe_update(1.0);
-    policy.observe_frame(bvh.stats().sah_cost, bvh.decay());
+    policy.observe_frame(bvh.stats().sah_cost, bvh.assessed_cost());
     if (frame % 10 != 0) continue;
     BruteForce brute;
     brute.build(list.triangles);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <random>
 
 namespace encore::accel {
@@ -15,19 +16,24 @@ namespace {
 
 constexpr int kFrames = 1500;
 
-/// A machine and a moving scene on it. `decay(frame, age)` is the SAH ratio of a tree built `age`
-/// frames ago, `fresh(frame)` what tracing a fresh one costs; each further unit of decay costs
-/// `slope` times as much again.
+/// A machine and a moving scene on it. `decay(frame, age)` is the SAH cost of a tree built `age`
+/// frames ago over that of one built now, `fresh(frame)` what tracing a fresh one costs; each
+/// further unit of decay costs `slope` times as much again.
 struct World {
   std::function<double(int frame, int age)> decay;
   std::function<double(int frame)> fresh = [](int) { return 10.0; };
   double build = 4.0;
   double update = 1.0;
   double slope = 0.8;
+  /// SAH cost of a tree built in that frame.
+  std::function<double(int frame)> fresh_tree = [](int) { return 30.0; };
   double noise = 0.0;  ///< standard deviation of each measured cost, relative
 
   [[nodiscard]] double trace(int frame, int age) const {
     return fresh(frame) * (1.0 + slope * std::max(0.0, decay(frame, age) - 1.0));
+  }
+  [[nodiscard]] double tree(int frame, int age) const {
+    return fresh_tree(frame) * decay(frame, age);
   }
   [[nodiscard]] double fixed(int period) const {
     double total = 0.0;
@@ -61,7 +67,7 @@ Outcome play(const World& world, std::uint64_t seed = 1) {
   };
   AutoPolicy policy;
   policy.observe_build(seen(world.build));
-  policy.observe_frame(seen(world.trace(0, 0)), 1.0);
+  policy.observe_frame(seen(world.trace(0, 0)), world.tree(0, 0));
   Outcome outcome;
   int age = 0;
   for (int i = 1; i <= kFrames; ++i) {
@@ -77,7 +83,7 @@ Outcome play(const World& world, std::uint64_t seed = 1) {
     }
     const double traced = world.trace(i, age);
     outcome.total += traced;
-    policy.observe_frame(seen(traced), age == 0 ? 1.0 : world.decay(i, age));
+    policy.observe_frame(seen(traced), world.tree(i, age));
   }
   outcome.slope = policy.slope();
   return outcome;
@@ -214,6 +220,71 @@ TEST(AutoPolicy, FollowsDecayThatComesAndGoes) {
                }});
 }
 
+/// A scene that flies apart: an updated tree costs what it did after its build, but a fresh one
+/// would cost less and less; tracing grows dearer all the while. Every 120 frames it starts anew.
+TEST(AutoPolicy, SeesThatAFreshTreeWouldHaveBecomeBetter) {
+  World world{
+      .decay = [](int frame, int age) { return std::exp(0.004 * std::min(age, frame % 120)); }};
+  world.fresh_tree = [](int frame) { return 39.0 * std::exp(-0.004 * (frame % 120)); };
+  world.fresh = [](int frame) { return 2.0 + 0.05 * (frame % 120); };
+  world.build = 0.16;
+  world.update = 0.04;
+  for (const double noise : {0.0, 0.05}) {
+    world.noise = noise;
+    expect_cheap("fresh trees get better", world, 5);
+    EXPECT_GT(play(world).builds, kFrames / 40);
+  }
+  // And where a build is dear, so that there are few trials.
+  world.build = 4.0;
+  world.update = 1.0;
+  expect_cheap("dear builds", world, 5);
+}
+
+TEST(AutoPolicy, AFreshTreeThatBecomesWorseIsNotTakenForDecay) {
+  World world{.decay = [](int, int age) { return 1.0 + 0.001 * age; }};
+  world.fresh_tree = [](int frame) { return 20.0 * std::exp(0.01 * (frame % 120)); };
+  world.fresh = [](int frame) { return 10.0 + 0.1 * (frame % 120); };
+  world.build = 20.0;
+  expect_cheap("fresh trees get worse", world, 5);
+}
+
+TEST(SteadyRate, BelievesWhatTwoLooksAgreeOn) {
+  SteadyRate rate;
+  EXPECT_EQ(rate.over(10), 1.0);
+  rate.add(1.21, 2);
+  EXPECT_EQ(rate.over(10), 1.0) << "seen once";
+  rate.add(1.5, 1);
+  EXPECT_NEAR(rate.over(1), 1.1, 1e-12) << "the lesser of the two";
+  EXPECT_NEAR(rate.over(2), 1.21, 1e-12);
+  EXPECT_EQ(rate.over(1000), 2.0);
+  rate.add(0.01, 3);
+  EXPECT_EQ(rate.over(5), 1.0) << "a jump back";
+  rate.add(0.9, 1);
+  EXPECT_NEAR(rate.over(1), 0.9, 1e-12);
+  rate.add(0.0, 1);
+  rate.add(std::nan(""), 1);
+  rate.add(2.0, 0);
+  EXPECT_NEAR(rate.over(1), 0.9, 1e-12) << "what measures nothing changes nothing";
+}
+
+TEST(AutoPolicy, ATreeWhoseCostIsUnknownDoesNotDecay) {
+  AutoPolicy policy;
+  policy.observe_build(5.0);
+  policy.observe_frame(10.0, std::nullopt);
+  for (int i = 0; i < 3; ++i) {
+    policy.observe_update(1.0);
+    policy.observe_frame(20.0, i == 1 ? std::optional(7.0) : std::nullopt);
+    EXPECT_EQ(policy.excess(), 0.0);
+    EXPECT_FALSE(policy.builds_next().value());
+  }
+  // A flat tree that is flat no more is beyond comparison.
+  policy.observe_build(5.0);
+  policy.observe_frame(10.0, 0.0);
+  policy.observe_update(1.0);
+  policy.observe_frame(10.0, 3.0);
+  EXPECT_TRUE(policy.builds_next().value());
+}
+
 TEST(AutoPolicy, SecondsAndJoulesDecideAlike) {
   World world{.decay = steady};
   const Outcome seconds = play(world);
@@ -253,6 +324,14 @@ TEST(AutoPolicy, TellsWhenABuildWouldHavePaid) {
   policy.observe_frame(10.0 * growth, 1.5);
   EXPECT_NEAR(policy.excess().value(), 10.0 * (growth - 1.0), 1e-9);
   EXPECT_NEAR(policy.break_even_frames().value(), 4.0 / (10.0 * (growth - 1.0)), 1e-9);
+  const auto then = policy.break_even_frames();
+  policy.observe_build(5.0);
+  EXPECT_EQ(policy.figures().break_even_at_rebuild, then);
+  EXPECT_EQ(policy.figures().rebuilds, 2U);
+  policy.clear_figures();
+  EXPECT_FALSE(policy.figures().break_even_at_rebuild);
+  EXPECT_EQ(policy.figures().rebuilds, 0U);
+  EXPECT_TRUE(policy.build_surplus()) << "what was learned stays";
 }
 
 }  // namespace

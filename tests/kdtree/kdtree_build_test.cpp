@@ -143,7 +143,9 @@ TEST(KdSah, SplitsOnlyAtEndsOfTriangles) {
 }
 
 TEST(KdSah, TakesStepsInProportionToNLogN) {
-  // Of four times the triangles, at most 4 * (1 + 2 / log2(n)) times the steps, and some room.
+  // Of four times the triangles, at most 4 * (1 + 2 / log2(n)) times the steps, and some room. The
+  // larger soup has 28 to 31 references a triangle: with fewer allowed, trees of different limits
+  // would be compared.
   for (const float size : {0.02F, 0.5F}) {
     std::uint64_t before = 0;
     for (const std::size_t count : {std::size_t{2500}, std::size_t{10000}, std::size_t{40000}}) {
@@ -151,12 +153,33 @@ TEST(KdSah, TakesStepsInProportionToNLogN) {
       const std::vector<Triangle> soup = kd_test::soup(count, size * shrink, 26);
       KdTreeSettings settings;
       settings.leaf_triangles = 10;
+      settings.most_references = 64;
       KdTree tree(StructureKind::kd_sah, settings, MemoryMode::pool);
       tree.build(soup);
+      EXPECT_FALSE(tree.stats().limited);
       if (before > 0) {
         EXPECT_LT(tree.build_operations(), 6 * before) << count;
       }
       before = tree.build_operations();
+    }
+  }
+}
+
+TEST_P(KdTreeBuild, TakesAtMostTwiceTheStepsWhereItBeginsAnew) {
+  const std::vector<Triangle> soup = kd_test::soup(10000, 0.3F, 26);
+  KdTreeSettings settings;
+  settings.most_references = 1000;
+  KdTree free(GetParam(), settings, MemoryMode::pool);
+  free.build(soup);
+  ASSERT_FALSE(free.stats().limited);
+  for (const int most : {2, 8, 16}) {
+    settings.most_references = most;
+    KdTree tree(GetParam(), settings, MemoryMode::pool);
+    tree.build(soup);
+    // Both builds make the splits of the free one, or fewer of them.
+    EXPECT_LE(tree.build_operations(), 2 * free.build_operations()) << most;
+    if (most == 2) {
+      EXPECT_TRUE(tree.stats().limited);
     }
   }
 }
