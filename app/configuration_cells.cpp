@@ -2,6 +2,8 @@
 
 #include "app/session_input.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
 
@@ -18,16 +20,45 @@ bool differs(const std::vector<energy::SummaryRow>& rows, std::string_view key,
   });
 }
 
+/// What the first configuration says that says anything here.
+std::string first_value(const std::vector<energy::SummaryRow>& rows, std::string_view key) {
+  for (const energy::SummaryRow& row : rows) {
+    std::string value = configuration_value(row.configuration, key);
+    if (!value.empty()) return value;
+  }
+  return {};
+}
+
+/// Whether two configurations say different things here; an empty value says nothing.
+bool varies(const std::vector<energy::SummaryRow>& rows, std::string_view key) {
+  const std::string first = first_value(rows, key);
+  return !first.empty() && differs(rows, key, first);
+}
+
 }  // namespace
+
+std::string common_rays(const std::vector<energy::SummaryRow>& rows) {
+  std::string text;
+  const auto add = [&](std::string_view key, std::string_view usual) {
+    const std::string value = first_value(rows, key);
+    if (value.empty() || value == usual || varies(rows, key)) return;
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", key, value);
+  };
+  add("rays", "none");
+  add("depth", "");
+  add("samples", "1");
+  add("intersection", "precise");
+  return text;
+}
 
 ConfigurationCells::ConfigurationCells(const std::vector<energy::SummaryRow>& rows)
     : groups_(differs(rows, "group", "")),
       devices_(differs(rows, "device", "cpu")),
       memory_(differs(rows, "memory", "pool")),
       cases_(differs(rows, "update_case", "real")),
-      intersections_(differs(rows, "intersection", "precise")),
-      rays_(differs(rows, "rays", "none")),
-      samples_(differs(rows, "samples", "1")),
+      intersections_(varies(rows, "intersection")),
+      rays_(varies(rows, "rays")),
+      samples_(varies(rows, "samples")),
       repeats_(differs(rows, "repeat", "1")) {}
 
 void ConfigurationCells::add_columns(TextTable& table) {

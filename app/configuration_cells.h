@@ -30,4 +30,8 @@ class ConfigurationCells {
   bool repeats_;
 };
 
+/// What all configurations that draw have in common beyond plain ray casting and so is no column:
+/// "rays shadows,reflections; depth 4; samples 16". Empty where there is nothing.
+std::string common_rays(const std::vector<energy::SummaryRow>& rows);
+
 }  // namespace encore::app

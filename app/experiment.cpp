@@ -5,6 +5,7 @@
 #include "app/machine_log.h"
 #include "app/number_text.h"
 #include "app/ray_report.h"
+#include "app/workload_frames.h"
 #include "energy/machine.h"
 #include "energy/runner.h"
 
@@ -98,7 +99,8 @@ Experiment::Experiment(Setup setup, const std::atomic<bool>& stop, Terminal& ter
       sensor_root_(setup.measuring.sensor_root),
       start_(clock_.now()),
       live_(wants_history(setup.measuring) ? kHistory : 1),
-      sources_(open_power_sources(setup.measuring, live_)) {
+      sources_(open_power_sources(setup.measuring, live_)),
+      phase_watts_(phase_watts(setup.measuring)) {
   info_.plan = make_plan(setup.measuring, infos_of(sources_));
   info_.sensor = sources_.provenance;
   for (std::size_t i = 0; i < sources_.sources.size(); ++i) {
@@ -179,6 +181,9 @@ void Experiment::check_writing() {
 std::optional<Experiment::Result> Experiment::measure(
     const WorkloadSpec& spec, const std::function<void(double, std::string_view)>& progress) {
   const auto workload = make_workload(spec, tools_);
+  if (auto* moving = dynamic_cast<DynamicWorkload*>(workload.get()); moving && phase_watts_) {
+    moving->set_phase_weights(*phase_watts_);
+  }
   if (info_.plan.cool_down.value > 0) {
     progress(0.0, "cooling down");
     clock_.sleep_until(clock_.now() + info_.plan.cool_down, stop_);

@@ -84,7 +84,9 @@ class Experiment {
   energy::SteadyClock clock_;
   energy::Seconds start_;
   energy::LiveBusyTime live_;
-  PowerSources sources_;     ///< its sources belong to the sampler once that runs
+  PowerSources sources_;  ///< its sources belong to the sampler once that runs
+  /// Policy::automatic weighs joules where these are known, else seconds.
+  std::optional<energy::PerPhase<double>> phase_watts_;
   std::string source_name_;  ///< of the total
   std::mutex failure_mutex_;
   std::string failure_;            ///< of writing on the sampler's thread

@@ -211,6 +211,24 @@ PowerSources open_power_sources(const MeasuringOptions& options, const LiveBusyT
   return opened;
 }
 
+std::optional<energy::PerPhase<double>> phase_watts(const MeasuringOptions& options) {
+  if (options.model.empty()) return std::nullopt;
+  try {
+    const energy::ModelSpec model = energy::parse_model_spec(options.model);
+    const auto* constants = std::get_if<energy::PowerModel>(&model);
+    if (constants == nullptr) return std::nullopt;
+    energy::PerPhase<double> watts{};
+    for (const energy::Phase phase : energy::kPhases) {
+      const std::optional<energy::Watts>& above_idle = constants->delta[phase];
+      if (!above_idle && phase != energy::Phase::animate) return std::nullopt;
+      if (above_idle) watts[phase] = above_idle->value;
+    }
+    return watts;
+  } catch (const energy::PowerModelError& error) {
+    throw UsageError(fmt::format("--model: {}", error.what()));
+  }
+}
+
 std::string total_name(const PowerSources& sources) {
   std::string name;
   for (const std::size_t i : sources.total) {

@@ -184,8 +184,12 @@ std::string report_text(const ProfileReport& report) {
                       : fmt::format(" ({})", energy::to_string(report.state)));
   if (report.gpu) text += fmt::format("GPU: {}\n", report.gpu->name);
   if (report.rows.empty()) return text + "\nNothing was measured.\n";
+  if (const std::string rays = common_rays(report.rows); !rays.empty()) {
+    text += fmt::format("Pictures: {}\n", rays);
+  }
   return text + build_table(report.rows) + frame_table(report.rows) + ray_table(report.rows) +
-         transfer_text(report.transfers, report.rows) + energy_text(report);
+         transfer_text(report.transfers, report.rows) + energy_text(report) +
+         left_out_text(report.left_out);
 }
 
 std::string report_json(const ProfileReport& report) {
@@ -215,7 +219,8 @@ std::string report_json(const ProfileReport& report) {
     transfers.push_back(json_object(transfer_header(columns.configuration), to_record(figures)));
   }
   json += json_list(results) + ",\n  \"phases\": " + json_list(phases) +
-          ",\n  \"transfers\": " + json_list(transfers);
+          ",\n  \"transfers\": " + json_list(transfers) +
+          ",\n  \"left_out\": " + left_out_json(report.left_out);
   return json + "\n}\n";
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/gpu_device.h"
+#include "app/needs_report.h"
 #include "app/transfer_derivation.h"
 #include "energy/provenance.h"
 #include "energy/sampling/sampler.h"
@@ -28,11 +29,13 @@ struct ProfileReport {
   };
   std::vector<Notes> notes;
   std::vector<TransferFigures> transfers;  ///< derive_transfers() of the session
+  std::vector<SceneLeftOut> left_out;      ///< what the scenes did without
   std::optional<energy::SamplerCost> sampling;
 };
 
 /// For people: where the joules come from, where the session lies, what the graphics device is, and
-/// tables of the builds, the frames and the transfers, each only if there are any.
+/// tables of the builds, the frames, the transfers and what was left out, each only if there are
+/// any.
 std::string report_text(const ProfileReport& report);
 
 /// The same as one JSON object. Each result has the columns of summary.csv by name; numbers are

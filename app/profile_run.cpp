@@ -143,9 +143,9 @@ std::string rendering_threads(const std::vector<WorkloadSpec>& specs) {
   return text;
 }
 
-ProfileOutcome measure_profile(const ProfileOptions& options, const std::vector<WorkloadSpec>& specs,
-                               const WorkloadTools& tools, const std::atomic<bool>& stop,
-                               Terminal& terminal) {
+ProfileOutcome measure_profile(const ProfileOptions& options,
+                               const std::vector<WorkloadSpec>& specs, const WorkloadTools& tools,
+                               const std::atomic<bool>& stop, Terminal& terminal) {
   const std::optional<GpuInfo> gpu = open_gpu_for(specs, tools, terminal);
   const energy::SessionInfo info = session_info(options, specs, gpu);
   std::string name = info.scenes.front();
@@ -173,9 +173,10 @@ ProfileOutcome measure_profile(const ProfileOptions& options, const std::vector<
 ProfileResult run_profile(const ProfileOptions& options, const WorkloadTools& tools,
                           const std::atomic<bool>& stop, Terminal& terminal) {
   const std::vector<WorkloadSpec> specs = list_workloads(options, tools, terminal);
-  const ProfileOutcome outcome = measure_profile(options, specs, tools, stop, terminal);
-  return {outcome.code,
-          options.json ? report_json(outcome.report) : report_text(outcome.report)};
+  ProfileOutcome outcome = measure_profile(options, specs, tools, stop, terminal);
+  // After everything else, so that it disturbs nothing that is measured.
+  if (outcome.code == ExitCode::ok) outcome.report.left_out = scenes_left_out(specs, stop);
+  return {outcome.code, options.json ? report_json(outcome.report) : report_text(outcome.report)};
 }
 
 }  // namespace encore::app

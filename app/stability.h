@@ -20,8 +20,8 @@ struct StabilityPlan {
   accel::StabilitySize size = accel::StabilitySize::usual;
   std::vector<accel::StructureSpec> structures;  ///< empty: all, brute too, by their defaults
   std::vector<accel::IntersectionMode> modes;    ///< empty: all
-  std::size_t rays_per_kind = 400;               ///< fewer where there are many triangles
-  double reference_tests = 1e7;                  ///< rays times triangles for each structure
+  std::size_t rays_per_kind = 200;               ///< fewer where there are many triangles
+  double reference_tests = 5e6;                  ///< rays times triangles for each structure
   std::uint64_t watertight_rays = 50'000;        ///< at edges and vertices of each closed mesh
   std::uint64_t seed = 1;
   bool cpu = true;

@@ -123,6 +123,13 @@ std::optional<accel::AutoFigures> DynamicWorkload::auto_figures() const {
   return auto_.figures();
 }
 
+std::optional<double> DynamicWorkload::break_even_frames() const {
+  const auto figures = auto_figures();
+  if (!figures) return std::nullopt;
+  return figures->break_even_at_rebuild ? figures->break_even_at_rebuild
+                                        : figures->break_even_frames;
+}
+
 void DynamicWorkload::learn(const energy::PhaseLog& log, std::size_t before) {
   if (!structure_ || spec_.policy != Policy::automatic) return;
   energy::PerPhase<double> cost{};
@@ -133,7 +140,7 @@ void DynamicWorkload::learn(const energy::PhaseLog& log, std::size_t before) {
   }
   if (done[Phase::build]) auto_.observe_build(cost[Phase::build] + cost[Phase::transfer]);
   if (done[Phase::update]) auto_.observe_update(cost[Phase::update] + cost[Phase::transfer]);
-  if (done[Phase::render]) auto_.observe_frame(cost[Phase::render], structure_->decay());
+  if (done[Phase::render]) auto_.observe_frame(cost[Phase::render], structure_->assessed_cost());
 }
 
 void DynamicWorkload::check_later_frame() {

@@ -126,6 +126,9 @@ class DynamicWorkload final : public FrameWorkload {
   [[nodiscard]] bool host_structure_is_stale() const override {
     return fitting() == Fitting::device;
   }
+  /// What the rebuilds of the measured operations were worth when they were decided on (median), or
+  /// where there was none, what one now would be.
+  [[nodiscard]] std::optional<double> break_even_frames() const override;
 
  private:
   void animate(energy::PhaseLog& log);

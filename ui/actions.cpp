@@ -191,6 +191,9 @@ void perform(Action action, const View& view, UiState& state, Commands& commands
         tell(state, "annotations belong to a recording; Ctrl+R begins one");
       }
       return;
+    case Action::accuracy:
+      state.accuracy.open = !state.accuracy.open;
+      return;
     case Action::full_screen:
       commands.push_back(ToggleFullScreen{});
       return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/accuracy_state.h"
 #include "ui/settings.h"
 
 #include <cstddef>
@@ -72,7 +73,14 @@ struct ApplyEnergy {};
 struct ExamineSensors {
   bool stop = false;
 };
-enum class PictureOf { pane_0, pane_1, structure_view, plots, window };
+/// Holds every combination to a reference, in the place of what was found before.
+struct StartAccuracy {
+  AccuracyChoice choice;
+};
+struct StopAccuracy {};
+/// Writes what was found to a new folder among the pictures: accuracy.csv and the scatter as SVG.
+struct SaveAccuracy {};
+enum class PictureOf { pane_0, pane_1, structure_view, plots, window, accuracy };
 struct SavePicture {
   PictureOf what = PictureOf::window;
   std::filesystem::path file;  ///< empty: a name of its own in the pictures' folder
@@ -88,11 +96,12 @@ struct SaveText {
 struct ToggleFullScreen {};
 struct Quit {};
 
-using Command = std::variant<OpenScene, ReloadScene, CancelWork, Rebuild, HoverPixel, PickPixel,
-                             ClearPick, PickNode, StartRecording, PauseRecording, StopRecording,
-                             Annotate, ClearResults, OpenSession, CompareSession, CloseSession,
-                             CancelSession, ExportSession, ApplyEnergy, ExamineSensors, SavePicture,
-                             CopyText, SaveText, ToggleFullScreen, Quit>;
+using Command =
+    std::variant<OpenScene, ReloadScene, CancelWork, Rebuild, HoverPixel, PickPixel, ClearPick,
+                 PickNode, StartRecording, PauseRecording, StopRecording, Annotate, ClearResults,
+                 OpenSession, CompareSession, CloseSession, CancelSession, ExportSession,
+                 ApplyEnergy, ExamineSensors, StartAccuracy, StopAccuracy, SaveAccuracy,
+                 SavePicture, CopyText, SaveText, ToggleFullScreen, Quit>;
 using Commands = std::vector<Command>;
 
 }  // namespace encore::ui

@@ -84,6 +84,7 @@ std::vector<Shortcut> make_table() {
   all.push_back(plain(Action::measure, GLFW_KEY_M, "M", "measure mode", measure));
   all.push_back(control(Action::record, GLFW_KEY_R, "Ctrl+R", "begin or end a recording", measure));
   all.push_back(control(Action::annotate, GLFW_KEY_M, "Ctrl+M", "annotate this moment", measure));
+  all.push_back(control(Action::accuracy, GLFW_KEY_E, "Ctrl+E", "error against time", measure));
   add_window(all);
   return all;
 }

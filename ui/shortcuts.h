@@ -33,6 +33,7 @@ enum class Action {
   measure,
   record,
   annotate,
+  accuracy,
   full_screen,
   scale_up,
   scale_down,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/camera.h"
+#include "ui/accuracy_state.h"
 #include "ui/inspect_state.h"
 #include "ui/layout.h"
 #include "ui/plot_states.h"
@@ -88,6 +89,7 @@ struct UiState {
   InspectState inspect;
   PlotStates plots;
   SessionUiState sessions;
+  AccuracyUiState accuracy;
 };
 
 /// Adds a notice; of many, the oldest go.

@@ -323,6 +323,38 @@ struct DoctorView {
   std::string conclusion;
 };
 
+/// One configuration held to the reference.
+struct AccuracyResult {
+  PaneDevice device = PaneDevice::cpu;
+  accel::StructureKind structure = accel::StructureKind::bvh_median;
+  accel::IntersectionMode intersection = accel::IntersectionMode::precise;
+  int samples = 1;
+  double rmse = 0.0;  ///< 1: as much as black differs from white
+  std::uint64_t missed = 0;
+  std::uint64_t invented = 0;
+  std::uint64_t wrong_triangle = 0;
+  std::optional<double> largest_t;  ///< relative error of t where the triangle is right
+  std::optional<double> seconds;    ///< a frame, median
+  std::optional<double> joules;     ///< a frame, gross
+  bool best_by_time = false;        ///< on the Pareto front of error and time
+  bool best_by_energy = false;
+};
+
+/// Error against run time, of the current scene.
+struct AccuracyView {
+  WorkView work;
+  std::string problem;
+  std::string of;  ///< what was compared: "mirrors, 256 × 256, shadows"
+  std::vector<AccuracyResult> results;
+  std::optional<double> reference_error;  ///< estimated RMSE of the reference itself
+  energy::Provenance energy;              ///< of the joules, or why there are none
+  int rounds = 0;                         ///< of timing, so far
+  int rounds_wanted = 0;
+  std::string csv;   ///< the results as accuracy.csv
+  bool gpu = false;  ///< OpenGL can trace here
+  std::string no_gpu;
+};
+
 /// What the window itself costs, and is.
 struct WindowView {
   double frame_ms = 0.0;         ///< the last frame's
@@ -350,6 +382,7 @@ struct View {
   RecorderView recorder;
   SessionView session;
   DoctorView doctor;
+  AccuracyView accuracy;
   WindowView window;
 };
 

@@ -129,6 +129,24 @@ energy::CsvRecord to_record(const AccuracyRow& row) {
   return record;
 }
 
+std::string accuracy_csv(const std::vector<AccuracyRow>& rows) {
+  std::string text;
+  const auto add = [&text](const energy::CsvRecord& record) {
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      text += (i > 0 ? "," : "") + energy::csv_field(record[i]);
+    }
+    text += '\n';
+  };
+  add(accuracy_header());
+  for (const AccuracyRow& row : rows) add(to_record(row));
+  return text;
+}
+
+void write_accuracy_csv(const std::filesystem::path& folder, const std::vector<AccuracyRow>& rows) {
+  energy::CsvWriter writer(folder / "accuracy.csv", accuracy_header());
+  for (const AccuracyRow& row : rows) writer.write(to_record(row));
+}
+
 std::string accuracy_json(const std::vector<AccuracyRow>& rows,
                           const std::optional<double>& reference_error) {
   std::string json =

@@ -5,6 +5,7 @@
 #include "energy/csv.h"
 #include "energy/provenance.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,10 @@ std::string accuracy_label(const AccuracyRow& row);
 /// The columns of accuracy.csv (docs/session-format.md), and a row of it.
 energy::CsvRecord accuracy_header();
 energy::CsvRecord to_record(const AccuracyRow& row);
+
+/// All rows as text, and as accuracy.csv in a folder. Throws energy::SessionError as CsvWriter.
+std::string accuracy_csv(const std::vector<AccuracyRow>& rows);
+void write_accuracy_csv(const std::filesystem::path& folder, const std::vector<AccuracyRow>& rows);
 
 /// The table for people, and one JSON object.
 std::string accuracy_table(const std::vector<AccuracyRow>& rows);

@@ -28,8 +28,7 @@ accel::AccelerationStructure& ConfigurationTracers::structure_of(const accel::St
 
 ConfigurationTracers::Made& ConfigurationTracers::make(
     const WorkloadSpec& spec, const accel::AccelerationStructure& structure) {
-  Made made{spec.device, spec.threads, spec.structure,
-            spec.rays,   nullptr,      nullptr};
+  Made made{spec.device, spec.threads, spec.structure, spec.rays, nullptr, nullptr};
   made.renderer = tools_.make_renderer(spec.device, spec.threads);
   made.tracer = dynamic_cast<renderer::Tracer*>(made.renderer.get());
   if (made.tracer == nullptr) throw std::logic_error("accuracy is of devices that trace rays");

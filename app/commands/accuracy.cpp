@@ -79,11 +79,6 @@ void add_cost(const std::vector<energy::SummaryRow>& measured, AccuracyRow& row)
   row.origin = typical.origin;
 }
 
-void write_rows(const std::filesystem::path& folder, const std::vector<AccuracyRow>& rows) {
-  energy::CsvWriter writer(folder / "accuracy.csv", accuracy_header());
-  for (const AccuracyRow& row : rows) writer.write(to_record(row));
-}
-
 /// The errors of every configuration; false if it was interrupted.
 bool compare_all(const std::vector<WorkloadSpec>& specs, const AccuracyReference& reference,
                  const WorkloadTools& tools, Terminal& terminal, std::vector<AccuracyRow>& rows) {
@@ -121,7 +116,7 @@ ExitCode accuracy(AccuracyOptions options, const WorkloadTools& tools) {
   for (AccuracyRow& row : rows) add_cost(measured.report.rows, row);
   mark_pareto_fronts(rows);
   const std::filesystem::path& folder = measured.report.folder;
-  write_rows(folder, rows);
+  write_accuracy_csv(folder, rows);
   write_accuracy_scatter(folder, rows, reference.own_error());
 
   if (options.json) {

@@ -1,13 +1,18 @@
 #include "app/commands/commands.h"
 #include "app/common_options.h"
+#include "app/device.h"
 #include "app/json_text.h"
+#include "app/needs_report.h"
 #include "app/number_text.h"
+#include "app/ray_options.h"
 #include "scene/sample_scenes.h"
 #include "scene/scene_info.h"
 
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 namespace encore::app {
 
@@ -113,6 +118,39 @@ void print_text(const scene::Scene& scene, const scene::SceneInfo& info) {
   for (const std::string& warning : info.warnings) print_line("warning", warning);
 }
 
+/// What drawing the scene by its own settings takes, and what it does without.
+struct SceneUse {
+  scene::RunNeeds needs;
+  scene::RunParts parts;
+  std::vector<scene::LeftOut> left_out;
+};
+
+/// Adds a warning where the scene states rays that there are not.
+SceneUse use_of(const scene::Scene& scene, const scene::TriangleList& list,
+                const CommonOptions& options, scene::SceneInfo& info) {
+  SceneUse use;
+  scene::RaySettings rays;
+  try {
+    rays = chosen_rays(options, scene);
+  } catch (const scene::InputError& error) {
+    info.warnings.emplace_back(error.what());
+  }
+  if (const scene::Preference* stated = preference(scene, "device"); stated != nullptr) {
+    const std::optional<Device> device = parse_device(stated->value);
+    use.parts.cpu = device.value_or(Device::cpu) == Device::cpu;
+    use.parts.gpu = device == Device::gpu;
+    use.parts.raster = device == Device::raster;
+  }
+  use.needs = scene::run_needs(scene, list, rays, use.parts);
+  use.left_out = scene::left_out(scene, list, rays, use.parts);
+  return use;
+}
+
+void print_use(const SceneUse& use) {
+  print_line("needs", needs_text(use.needs, use.parts));
+  fmt::print("{}", left_out_text({{.scene = {}, .features = use.left_out, .cost = {}}}));
+}
+
 std::string json_vec3(const glm::vec3& v) {
   return fmt::format("[{}, {}, {}]", json_number(v.x), json_number(v.y), json_number(v.z));
 }
@@ -125,7 +163,7 @@ std::string json_distribution(const scene::Distribution& d) {
       json_number(d.percentile_90), json_number(d.percentile_99), json_number(d.max));
 }
 
-void print_json(const scene::SceneInfo& info) {
+void print_json(const scene::SceneInfo& info, const SceneUse& use) {
   std::string warnings;
   for (const std::string& warning : info.warnings) {
     warnings += (warnings.empty() ? "" : ", ") + json_text(warning);
@@ -149,10 +187,12 @@ void print_json(const scene::SceneInfo& info) {
   fmt::print(
       " \"animation\": {{\"kind\": {}, \"moving_instances\": {}, \"frames\": {}, \"duration_s\": "
       "{}, \"min_triangles\": {}, \"max_triangles\": {}}},\n \"mesh_bytes\": {}, "
-      "\"triangle_list_bytes\": {}, \"warnings\": [{}]}}\n",
+      "\"triangle_list_bytes\": {}, \"needs\": {},\n \"left_out\": {},\n \"warnings\": [{}]}}\n",
       json_text(info.animation.kind), info.animation.moving_instances, info.animation.frames,
       json_number(info.animation.duration_s), info.animation.min_triangles,
-      info.animation.max_triangles, info.mesh_bytes, info.triangle_list_bytes, warnings);
+      info.animation.max_triangles, info.mesh_bytes, info.triangle_list_bytes,
+      json_text(needs_text(use.needs, use.parts)),
+      left_out_json({{.scene = info.name, .features = use.left_out, .cost = {}}}), warnings);
 }
 
 }  // namespace
@@ -172,11 +212,13 @@ void add_info_command(CLI::App& app, ExitCode& result) {
     const scene::Scene scene = open_scene(name, *options, terminal);
     scene::TriangleList list;
     scene::update_triangles(scene, options->time_s, list);
-    const scene::SceneInfo info = scene::describe(scene, list);
+    scene::SceneInfo info = scene::describe(scene, list);
+    const SceneUse use = use_of(scene, list, *options, info);
     if (options->json) {
-      print_json(info);
+      print_json(info, use);
     } else {
       print_text(scene, info);
+      print_use(use);
     }
     result = ExitCode::ok;
   });

@@ -102,8 +102,9 @@ ExitCode render(const RenderOptions& options) {
   scene::TriangleList triangles;
   scene::update_triangles(scene, options.time_s, triangles);
   if (triangles.dropped_non_finite > 0) {
-    terminal.warning(fmt::format("{} triangles with coordinates that are not finite are left out",
-                                 triangles.dropped_non_finite));
+    terminal.warning(fmt::format(
+        "{} triangles with coordinates that are not finite, or beyond 2^126, are left out",
+        triangles.dropped_non_finite));
   }
   report.scene = scene.name;
   report.triangles = triangles.triangles.size();

@@ -86,6 +86,7 @@ class Application {
   void save_text(const ui::SaveText& save);
   void keep_settings(bool now);
   void note_first_pictures();
+  [[nodiscard]] ui::Rect within_window(const ui::Rect& area) const;
 
   const WindowOptions& options_;
   const std::atomic<bool>& stop_;
@@ -136,7 +137,7 @@ void Application::take_drops() {
 
 double Application::frame_interval() const {
   const bool used = last_frame_s_ - last_input_s_ < kAfterInput_s;
-  if (state_.measuring) return used ? kPlots_s : kMeasuring_s;
+  if (state_.measuring || view_.accuracy.work.active) return used ? kPlots_s : kMeasuring_s;
   const bool plays = state_.settings.animation.playing && view_.scene.animated;
   if (plays || state_.camera_moving) return kMoving_s;
   if (used) return kAfterInputStep_s;
@@ -172,12 +173,16 @@ void Application::wait() {
 }
 
 void Application::save_picture(const ui::SavePicture& save) {
-  static constexpr const char* kNames[] = {"pane-1", "pane-2", "structure", "plots", "window"};
+  static constexpr const char* kNames[] = {"pane-1", "pane-2", "structure",
+                                           "plots",  "window", "accuracy"};
   try {
     const auto what = static_cast<std::size_t>(save.what);
     ui::SavePicture named = save;
     if (named.file.empty()) named.file = new_picture_file(kNames[what]);
-    if (save.what == ui::PictureOf::plots || save.what == ui::PictureOf::window) {
+    const bool of_window = save.what == ui::PictureOf::plots ||
+                           save.what == ui::PictureOf::window ||
+                           save.what == ui::PictureOf::accuracy;
+    if (of_window) {
       capture_ = std::move(named);
       frames_due_ = std::max(frames_due_, 1);
       return;
@@ -252,6 +257,13 @@ void Application::note_first_pictures() {
   if (any && all) all_pictures_s_ = seconds_since_start();
 }
 
+ui::Rect Application::within_window(const ui::Rect& area) const {
+  const float x = std::max(area.x, 0.0F);
+  const float y = std::max(area.y, 0.0F);
+  return {x, y, std::min(area.right(), float(window_.width())) - x,
+          std::min(area.bottom(), float(window_.height())) - y};
+}
+
 void Application::frame() {
   const double began = steady_now();
   apply_look();
@@ -274,8 +286,9 @@ void Application::frame() {
   if (capture) {
     try {
       const int width = window_.width();
-      if (capture->what == ui::PictureOf::plots) {
-        const ui::Rect area = state_.plots_area;
+      if (capture->what != ui::PictureOf::window) {
+        const bool plots = capture->what == ui::PictureOf::plots;
+        const ui::Rect area = within_window(plots ? state_.plots_area : state_.accuracy.area);
         write_rgb_png(capture->file, pixels, width, int(area.x), int(area.y), int(area.width),
                       int(area.height));
       } else {

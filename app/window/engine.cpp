@@ -76,6 +76,9 @@ Engine::Engine(Setup setup) : setup_(std::move(setup)) {
   }
   scheduler_ = std::make_unique<MeasureScheduler>(MeasureScheduler::Setup{
       panes, attribution_.get(), &monitor_->clock(), monitor_->start(), setup_.wake});
+  accuracy_ = std::make_unique<AccuracyTask>(AccuracyTask::Setup{
+      [device = setup_.gl_device] { return standard_tools(std::make_shared<GpuContext>(device)); },
+      [this](bool held, const std::atomic<bool>& end) { hold_panes(held, end); }, setup_.wake});
 }
 
 Engine::~Engine() {
@@ -90,6 +93,8 @@ void Engine::shut_down() {
   doctor_task_.cancel();
   loader_.cancel();
   // Whatever may wait for a worker goes before the workers, and they before what they tell.
+  accuracy_->cancel();
+  accuracy_.reset();
   scheduler_.reset();
   for (auto& worker : workers_) worker.reset();
   recorder_->stop();
@@ -108,6 +113,7 @@ void Engine::take_scene(ui::UiState& state) {
       if (!loaded->problem.empty()) ui::tell(state, loaded->problem, true);
     } else {
       const bool reloaded = scene_ && scene_name_ == loaded->name;
+      accuracy_->cancel();
       scene_ = loaded->scene;
       scene_name_ = loaded->name;
       scene_info_.reset();
@@ -317,6 +323,7 @@ void Engine::apply_measuring(const ui::UiState& state) {
 void Engine::apply(ui::UiState& state, double now_s) {
   take_scene(state);
   take_tasks(state);
+  apply_accuracy(state);
   run_animation(state, now_s);
   power_ = monitor_->state();
   plots_.add(monitor_->drain(), power_);
@@ -351,7 +358,8 @@ void Engine::apply(ui::UiState& state, double now_s) {
 
 bool Engine::busy() const {
   if (loader_.loading() || session_task_.running() || other_task_.running() ||
-      export_task_.running() || doctor_task_.running() || power_.opening) {
+      export_task_.running() || doctor_task_.running() || gpu_task_.running() ||
+      (accuracy_ && accuracy_->running()) || power_.opening) {
     return true;
   }
   for (const auto& worker : workers_) {

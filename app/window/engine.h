@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/measuring_options.h"
+#include "app/window/accuracy_task.h"
 #include "app/window/doctor_view.h"
 #include "app/window/export.h"
 #include "app/window/live_attribution.h"
@@ -78,6 +79,11 @@ class Engine {
   void fill_recorder(ui::View& view) const;
   void fill_session(ui::View& view) const;
   void fill_doctor(ui::View& view) const;
+  void hold_panes(bool held, const std::atomic<bool>& stop);
+  void start_accuracy(const ui::AccuracyChoice& choice, const ui::UiState& state);
+  void save_accuracy(ui::UiState& state) const;
+  void apply_accuracy(ui::UiState& state);
+  void fill_accuracy(ui::View& view, const ui::UiState& state) const;
 
   Setup setup_;
   std::unique_ptr<PowerMonitor> monitor_;
@@ -124,6 +130,10 @@ class Engine {
   std::string doctor_problem_;
   BackgroundTask<std::vector<std::string>> opengl_task_;
   std::vector<std::string> opengl_lines_;
+  BackgroundTask<bool> gpu_task_;  ///< asks whether OpenGL can trace
+  std::optional<bool> gpu_;
+  std::string no_gpu_;
+  std::unique_ptr<AccuracyTask> accuracy_;
 };
 
 }  // namespace encore::app

@@ -201,6 +201,18 @@ bool Engine::execute(const ui::Command& command, ui::UiState& state) {
                    examine_sensors();
                    return true;
                  },
+                 [this, &state](const ui::StartAccuracy& start) {
+                   start_accuracy(start.choice, state);
+                   return true;
+                 },
+                 [this](const ui::StopAccuracy&) {
+                   accuracy_->cancel();
+                   return true;
+                 },
+                 [this, &state](const ui::SaveAccuracy&) {
+                   save_accuracy(state);
+                   return true;
+                 },
                  other},
       command);
 }

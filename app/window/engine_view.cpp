@@ -282,6 +282,7 @@ void Engine::fill(ui::View& view, const ui::UiState& state) {
   fill_recorder(view);
   fill_session(view);
   fill_doctor(view);
+  fill_accuracy(view, state);
 }
 
 }  // namespace encore::app

@@ -282,7 +282,7 @@ void PaneTracer::learn(const energy::PhaseLog& log, std::size_t before) {
 
 void PaneTracer::learn_frame(double render_s) {
   if (!structure_ || policy_ != accel::Policy::automatic) return;
-  costs_.observe_frame(render_s, structure_->decay());
+  costs_.observe_frame(render_s, structure_->assessed_cost());
 }
 
 std::optional<double> PaneTracer::break_even_frames() const {

@@ -96,6 +96,14 @@ std::shared_ptr<const scene::Scene> bursting() {
   return scene;
 }
 
+std::optional<double> counter(const SceneWorkload& workload, std::string_view name) {
+  for (const auto& one : workload.counters({})) {
+    if (one.name == name) return one.value;
+  }
+  ADD_FAILURE() << "no counter " << name;
+  return std::nullopt;
+}
+
 TEST_F(ProfileAuto, ByCostsItRebuildsWhatFliesApart) {
   spec.scene = bursting();
   spec.size = {96, 96};
@@ -114,6 +122,7 @@ TEST_F(ProfileAuto, ByCostsItRebuildsWhatFliesApart) {
   EXPECT_GE(figures.rebuilds, 2U);
   EXPECT_GE(figures.updates, 1U);
   EXPECT_GT(figures.break_even_at_rebuild.value(), 0.0);
+  EXPECT_EQ(counter(dynamic, "break_even_frames"), figures.break_even_at_rebuild);
 }
 
 TEST_F(ProfileAuto, WhereUpdatesAreDearInJoulesItBuilds) {
@@ -135,7 +144,9 @@ TEST_F(ProfileAuto, WhereUpdatesAreDearInJoulesItBuilds) {
 TEST_F(ProfileAuto, OtherPoliciesHaveNoSuchFigures) {
   spec.scene = bursting();
   spec.policy = Policy::refit;
-  EXPECT_FALSE(DynamicWorkload(spec, standard_tools()).auto_figures());
+  DynamicWorkload dynamic(spec, standard_tools());
+  EXPECT_FALSE(dynamic.auto_figures());
+  EXPECT_FALSE(counter(dynamic, "break_even_frames"));
 }
 
 TEST_F(ProfileAuto, OnADeviceTheHostFitsAndSends) {

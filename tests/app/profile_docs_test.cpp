@@ -1,3 +1,4 @@
+#include "app/accuracy/accuracy_rows.h"
 #include "app/machine_log.h"
 #include "app/transfer_derivation.h"
 #include "app/workloads.h"
@@ -41,6 +42,7 @@ TEST(SessionFormat, DocumentsExactlyTheColumnsThatAreWritten) {
   EXPECT_EQ(documented("windows.csv"), energy::window_header(columns));
   EXPECT_EQ(documented("machine.csv"), machine_log_header());
   EXPECT_EQ(documented("transfer.csv"), transfer_header(configuration_columns()));
+  EXPECT_EQ(documented("accuracy.csv"), accuracy_header());
   EXPECT_EQ(documented("events.csv"), energy::event_header());
 }
 

@@ -154,6 +154,11 @@ void draw_measure_menu(const MenuContext& context) {
                 .label = "Measure mode",
                 .tip = "The panes trace by turns with rests between, and figures are collected.",
                 .selected = state.measuring});
+  action_entry(context, Action::accuracy,
+               {.name = "menu.measure.accuracy",
+                .label = "Accuracy…",
+                .tip = "How far pictures and hits are off, against what a frame costs.",
+                .selected = state.accuracy.open});
   if (menu_entry({.name = "menu.measure.clear",
                   .label = "Forget the results",
                   .tip = "Starts the figures of measure mode afresh."})) {

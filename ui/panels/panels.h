@@ -42,6 +42,8 @@ void draw_error_plot(const Rect& area, const View& view, UiState& state, Command
 /// Windows of their own.
 void draw_sessions_window(const View& view, UiState& state, Commands& commands);
 void draw_doctor_window(const View& view, UiState& state, Commands& commands);
+/// Error against run time: what to compare, the results as a table and as a scatter.
+void draw_accuracy_window(const View& view, UiState& state, Commands& commands);
 /// Where watts come from; drawn while it is the dialog.
 void draw_energy_dialog(const View& view, UiState& state, Commands& commands);
 

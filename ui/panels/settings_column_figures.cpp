@@ -100,7 +100,7 @@ void draw_scene_figures(const scene::SceneInfo& info) {
   }
   if (info.dropped_non_finite > 0) {
     figure("dropped", "Left out", count_text(info.dropped_non_finite),
-           "Triangles with corners that are not finite numbers.");
+           "Triangles with corners that are not finite numbers, or beyond 2^126: left out.");
   }
   draw_shapes(info);
   draw_occupancy(info);

@@ -185,6 +185,7 @@ void draw_window(const View& view, UiState& state, Commands& commands) {
   if (!layout.status.empty()) draw_status(layout.status, view, state, commands);
   if (state.sessions_open) draw_sessions_window(view, state, commands);
   if (state.doctor_open) draw_doctor_window(view, state, commands);
+  if (state.accuracy.open) draw_accuracy_window(view, state, commands);
   draw_dialogs(view, state, commands);
   draw_notices(layout, state);
   state.shell.history.observe(state.settings, ImGui::IsAnyItemActive());
