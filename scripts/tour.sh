@@ -11,4 +11,5 @@ preset=${3:-asan}
 scripts/build.sh "$preset" test_window
 export ENCORE_TOUR_MINUTES=$minutes ENCORE_TOUR_SEED=$seed ENCORE_NEED_GL=1
 export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$PWD/tests/lsan.supp:print_suppressions=0}
+export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$PWD/tests/tsan.supp:print_suppressions=0}
 exec "build/$preset/tests/test_window" --gtest_also_run_disabled_tests --gtest_filter='*DISABLED_Tour'
