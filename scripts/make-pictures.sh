@@ -9,6 +9,7 @@ $encore render toys --size 512 --out docs/images/toys.png
 $encore render dragon --size 512 --out docs/images/dragon.png
 $encore render dragon --size 512 --heatmap steps --out docs/images/dragon-steps.png
 $encore render forest --size 768x512 --out docs/images/forest.png
+$encore render mirrors --samples 16 --size 768x512 --out docs/images/mirrors.png
 
 # The window's, as someone sees it who uses it: on a display of its own.
 if ! command -v Xvfb >/dev/null; then
