@@ -1,4 +1,4 @@
-// Möller and Trumbore (1997) in single precision and nothing else, the same sums and products as
+// Moller and Trumbore (1997) in single precision and nothing else, the same sums and products as
 // accel/triangle_moller_trumbore.h; no double precision is compiled in.
 
 // Nothing of a ray need be worked out beforehand.
