@@ -91,6 +91,15 @@ class AccelerationStructure {
   void set_intersection(IntersectionMode mode) { intersection_ = mode; }
   [[nodiscard]] IntersectionMode intersection() const { return intersection_; }
 
+  /// Whether intersect_tile() and occluded_tile() may take rays together. Takes effect at once.
+  void set_grouping(RayGrouping grouping) { grouping_ = grouping; }
+  [[nodiscard]] RayGrouping grouping() const { return grouping_; }
+
+  /// How many threads builds and updates may use, the caller's among them; 0: as many as the
+  /// calling thread's arena has. What is built does not depend on it.
+  void set_build_threads(int threads) { build_threads_ = threads; }
+  [[nodiscard]] int build_threads() const { return build_threads_; }
+
   /// Finds the nearest hit of each ray; hits.size() == rays.size().
   virtual void intersect(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
   /// The same, and what each ray cost; counters.size() == rays.size(), overwritten.
@@ -98,6 +107,19 @@ class AccelerationStructure {
                                  std::span<TraceCounters> counters) const = 0;
   /// Whether each ray hits anything at all (any-hit): 1 or 0.
   virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const = 0;
+
+  /// intersect() and occluded() for rays that run side by side: a rectangle of them, row by row,
+  /// `width` to a row, neighbours in the rectangle being neighbours in space. The same hits, found
+  /// for many rays at once where the structure can and grouping() allows it.
+  void intersect_tile(std::span<const Ray> rays, std::size_t width, std::span<Hit> hits) const {
+    if (grouping_ == RayGrouping::single) return intersect(rays, hits);
+    intersect_together(rays, width, hits);
+  }
+  void occluded_tile(std::span<const Ray> rays, std::size_t width,
+                     std::span<std::uint8_t> blocked) const {
+    if (grouping_ == RayGrouping::single) return occluded(rays, blocked);
+    occluded_together(rays, width, blocked);
+  }
 
   /// The nearest hit of one ray, the same as intersect()'s, and everything that happens on the way:
   /// the very traversal that intersect_counted() runs, written down. A structure that cannot tell
@@ -125,9 +147,20 @@ class AccelerationStructure {
   void mark_changed() { ++version_; }
   [[nodiscard]] BuildWatch* build_watch() const { return watch_; }
 
+  virtual void intersect_together(std::span<const Ray> rays, std::size_t /*width*/,
+                                  std::span<Hit> hits) const {
+    intersect(rays, hits);
+  }
+  virtual void occluded_together(std::span<const Ray> rays, std::size_t /*width*/,
+                                 std::span<std::uint8_t> blocked) const {
+    occluded(rays, blocked);
+  }
+
  private:
   BuildWatch* watch_ = nullptr;
   IntersectionMode intersection_ = IntersectionMode::precise;
+  RayGrouping grouping_ = RayGrouping::packets;
+  int build_threads_ = 0;
   std::uint64_t version_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <span>
 #include <type_traits>
 
@@ -19,7 +20,7 @@ struct AllocationCount {
 
 /// A flat array of trivially copyable values for structure memory: uninitialised, counted, and
 /// obedient to the memory mode. In `pool` mode memory is kept from build to build and only grows;
-/// in `fresh` mode each build starts from nothing.
+/// in `fresh` mode each build starts from nothing. Starts at a cache line.
 template <class T>
 class Array {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -38,7 +39,7 @@ class Array {
   /// Grows to at least `size` values, doubling the capacity and keeping the content.
   void grow(std::size_t size, AllocationCount& count) {
     if (size > capacity_) {
-      std::unique_ptr<T[]> old = std::move(data_);
+      Memory old = std::move(data_);
       const std::size_t doubled = capacity_ * 2;
       allocate(size > doubled ? size : doubled, count);
       if (old) std::memcpy(data_.get(), old.get(), size_ * sizeof(T));
@@ -65,15 +66,22 @@ class Array {
   [[nodiscard]] std::span<const std::byte> bytes() const { return std::as_bytes(span()); }
 
  private:
+  static constexpr std::align_val_t kLine{64};
+  static_assert(alignof(T) <= std::size_t{64});
+  struct Free {
+    void operator()(T* values) const { ::operator delete[](values, kLine); }
+  };
+  using Memory = std::unique_ptr<T[], Free>;
+
   void allocate(std::size_t size, AllocationCount& count) {
     if (size == 0) return;
-    data_ = std::unique_ptr<T[]>(new T[size]);  // default-initialised: no clearing of trivial types
+    data_ = Memory(new (kLine) T[size]);  // default-initialised: no clearing of trivial types
     capacity_ = size;
     ++count.requests;
     count.bytes += size * sizeof(T);
   }
 
-  std::unique_ptr<T[]> data_;
+  Memory data_;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
 };

@@ -45,6 +45,17 @@ class BuildMeter {
   [[nodiscard]] bool watched() const { return watch_ != nullptr; }
   [[nodiscard]] double done() const { return done_; }
 
+  /// Whether somebody has asked for the end. The only member that other threads than the building
+  /// one may call.
+  [[nodiscard]] bool cancel_asked() const {
+    return watch_ != nullptr && watch_->cancel != nullptr &&
+           watch_->cancel->load(std::memory_order_relaxed);
+  }
+  /// What such a thread can be watched by: it ends where this one does.
+  [[nodiscard]] const std::atomic<bool>* cancel_flag() const {
+    return watch_ != nullptr ? watch_->cancel : nullptr;
+  }
+
   /// Throws BuildCancelled if the build is to end.
   void check() {
     if (watch_ != nullptr) [[unlikely]] {

@@ -4,6 +4,7 @@
 #include "accel/bvh/bvh.h"
 #include "accel/grid/grid.h"
 #include "accel/kdtree/kdtree.h"
+#include "accel/wide/wide_bvh.h"
 
 #include <utility>
 
@@ -30,6 +31,8 @@ std::unique_ptr<AccelerationStructure> make_kind(const StructureSpec& spec) {
     case StructureKind::bvh_median:
       return std::make_unique<Bvh>(spec.kind, settings(std::type_identity<BvhSettings>{}),
                                    spec.memory);
+    case StructureKind::bvh_sah:
+      return std::make_unique<WideBvh>(settings(std::type_identity<BvhSettings>{}), spec.memory);
   }
   return nullptr;
 }
@@ -39,6 +42,7 @@ std::unique_ptr<AccelerationStructure> make_kind(const StructureSpec& spec) {
 std::unique_ptr<AccelerationStructure> make_structure(const StructureSpec& spec) {
   auto structure = make_kind(spec);
   if (structure) structure->set_intersection(spec.intersection);
+  if (structure) structure->set_grouping(spec.grouping);
   return structure;
 }
 

@@ -2,6 +2,7 @@
 
 #include "accel/grid/grid.h"
 #include "accel/kdtree/kdtree_builder.h"
+#include "accel/wide/wide_build.h"
 #include "shaders/shared/gpu_types.h"
 
 #include <cstddef>
@@ -43,6 +44,8 @@ std::uint64_t most_bytes(const StructureSpec& spec, std::uint64_t triangles) {
       return most_kd_bytes(settings_of<KdTreeSettings>(spec), triangles);
     case StructureKind::bvh_median:
       return 2 * sizeof(gpu::BvhNode) * triangles;
+    case StructureKind::bvh_sah:
+      return most_wide_bytes(settings_of<BvhSettings>(spec).preset, triangles);
   }
   return 0;
 }

@@ -13,12 +13,13 @@ namespace {
 template <class Enum, std::size_t N>
 using Names = std::array<std::pair<Enum, std::string_view>, N>;
 
-constexpr Names<StructureKind, 6> kStructures{{{StructureKind::brute, "brute"},
+constexpr Names<StructureKind, 7> kStructures{{{StructureKind::brute, "brute"},
                                                {StructureKind::grid_exact, "grid-exact"},
                                                {StructureKind::grid_box, "grid-box"},
                                                {StructureKind::kd_median, "kd-median"},
                                                {StructureKind::kd_sah, "kd-sah"},
-                                               {StructureKind::bvh_median, "bvh-median"}}};
+                                               {StructureKind::bvh_median, "bvh-median"},
+                                               {StructureKind::bvh_sah, "bvh-sah"}}};
 constexpr Names<Policy, 4> kPolicies{{{Policy::rebuild, "rebuild"},
                                       {Policy::refit, "refit"},
                                       {Policy::automatic, "auto"},
@@ -30,6 +31,12 @@ constexpr Names<UpdateCase, 4> kUpdateCases{{{UpdateCase::real, "real"},
                                              {UpdateCase::average, "average"},
                                              {UpdateCase::worst, "worst"}}};
 constexpr Names<AutoRule, 2> kAutoRules{{{AutoRule::cost, "cost"}, {AutoRule::quality, "quality"}}};
+
+constexpr Names<BuildPreset, 3> kPresets{{{BuildPreset::fast, "fast"},
+                                          {BuildPreset::balanced, "balanced"},
+                                          {BuildPreset::best, "best"}}};
+constexpr Names<RayGrouping, 2> kGroupings{
+    {{RayGrouping::packets, "packets"}, {RayGrouping::single, "single"}}};
 
 constexpr Names<IntersectionMode, 3> kIntersectionModes{
     {{IntersectionMode::precise, "precise"},
@@ -122,6 +129,14 @@ std::string apply_bvh(BvhSettings& bvh, std::string_view key, std::string_view v
     bvh.auto_rule = *rule;
     return {};
   }
+  if (key == "bvh.preset") {
+    const auto preset = parse_build_preset(value);
+    if (!preset) {
+      return fmt::format("'{}' is not a value for {}; it takes fast, balanced or best", value, key);
+    }
+    bvh.preset = *preset;
+    return {};
+  }
   if (key == "bvh.seed") {
     return assign<std::uint64_t>(bvh.seed, key, value, 0, ~std::uint64_t{0});
   }
@@ -145,6 +160,12 @@ std::string_view to_string(UpdateCase update_case) {
 }
 std::string_view to_string(AutoRule rule) {
   return name_of(kAutoRules, rule);
+}
+std::string_view to_string(BuildPreset preset) {
+  return name_of(kPresets, preset);
+}
+std::string_view to_string(RayGrouping grouping) {
+  return name_of(kGroupings, grouping);
 }
 std::string_view to_string(IntersectionMode mode) {
   return name_of(kIntersectionModes, mode);
@@ -173,6 +194,12 @@ std::optional<UpdateCase> parse_update_case(std::string_view name) {
 std::optional<AutoRule> parse_auto_rule(std::string_view name) {
   return value_of(kAutoRules, name);
 }
+std::optional<BuildPreset> parse_build_preset(std::string_view name) {
+  return value_of(kPresets, name);
+}
+std::optional<RayGrouping> parse_ray_grouping(std::string_view name) {
+  return value_of(kGroupings, name);
+}
 AutoRule auto_rule(const StructureSettings& settings) {
   const auto* bvh = std::get_if<BvhSettings>(&settings);
   return bvh != nullptr ? bvh->auto_rule : AutoRule::cost;
@@ -197,13 +224,23 @@ const std::vector<Policy>& all_policies() {
 }
 
 const std::vector<std::string_view>& setting_keys() {
-  static const std::vector<std::string_view> keys{
-      "grid.cells_per_axis", "grid.density",         "grid.most_references",
-      "kd.depth_offset",     "kd.depth_factor",      "kd.depth_logarithm",
-      "kd.leaf_triangles",   "kd.bad_split_retries", "kd.bad_split_margin",
-      "kd.traversal_cost",   "kd.intersection_cost", "kd.empty_bonus",
-      "kd.most_references",  "bvh.update_case",      "bvh.seed",
-      "bvh.rebuild_at"};
+  static const std::vector<std::string_view> keys{"grid.cells_per_axis",
+                                                  "grid.density",
+                                                  "grid.most_references",
+                                                  "kd.depth_offset",
+                                                  "kd.depth_factor",
+                                                  "kd.depth_logarithm",
+                                                  "kd.leaf_triangles",
+                                                  "kd.bad_split_retries",
+                                                  "kd.bad_split_margin",
+                                                  "kd.traversal_cost",
+                                                  "kd.intersection_cost",
+                                                  "kd.empty_bonus",
+                                                  "kd.most_references",
+                                                  "bvh.update_case",
+                                                  "bvh.seed",
+                                                  "bvh.rebuild_at",
+                                                  "bvh.preset"};
   return keys;
 }
 
@@ -222,6 +259,7 @@ StructureSpec default_spec(StructureKind kind) {
       spec.settings = KdTreeSettings{};
       break;
     case StructureKind::bvh_median:
+    case StructureKind::bvh_sah:
       spec.settings = BvhSettings{};
       break;
   }

@@ -10,7 +10,7 @@
 namespace encore::accel {
 
 /// Every acceleration structure of the program, by the name that the command line takes.
-enum class StructureKind { brute, grid_exact, grid_box, kd_median, kd_sah, bvh_median };
+enum class StructureKind { brute, grid_exact, grid_box, kd_median, kd_sah, bvh_median, bvh_sah };
 
 /// What a moving scene does to the structure each frame.
 enum class Policy {
@@ -59,6 +59,19 @@ enum class UpdateCase {
   worst,    ///< all
 };
 
+/// How much a build of bvh-sah spends on its tree.
+enum class BuildPreset {
+  fast,      ///< Morton codes: for scenes that are rebuilt every frame
+  balanced,  ///< binned surface area heuristic (Wald 2007)
+  best,      ///< the same with long triangles split (spatial splits) and the tree optimised after
+};
+
+/// Whether rays that go through the structure side by side share its steps.
+enum class RayGrouping {
+  packets,  ///< neighbouring rays of a picture go together wherever the structure can
+  single,   ///< one ray after the other, as in the thesis
+};
+
 struct GridSettings {
   /// Cells along each axis; 0 chooses the thesis' round(cbrt(#T)). More cells: fewer triangle tests
   /// a ray, but more steps and memory (the cube of it).
@@ -100,6 +113,9 @@ struct KdTreeSettings {
 };
 
 struct BvhSettings {
+  /// bvh-sah only.
+  BuildPreset preset = BuildPreset::balanced;
+  /// bvh-median only.
   UpdateCase update_case = UpdateCase::real;
   /// Seed of UpdateCase::average.
   std::uint64_t seed = 1;
@@ -125,6 +141,7 @@ struct StructureSpec {
   StructureSettings settings = BvhSettings{};
   MemoryMode memory = MemoryMode::pool;
   IntersectionMode intersection = IntersectionMode::precise;
+  RayGrouping grouping = RayGrouping::packets;
 
   friend bool operator==(const StructureSpec&, const StructureSpec&) = default;
 };
@@ -135,12 +152,16 @@ std::string_view to_string(Policy policy);
 std::string_view to_string(MemoryMode mode);
 std::string_view to_string(UpdateCase update_case);
 std::string_view to_string(AutoRule rule);
+std::string_view to_string(BuildPreset preset);
+std::string_view to_string(RayGrouping grouping);
 std::string_view to_string(IntersectionMode mode);
 std::optional<StructureKind> parse_structure_kind(std::string_view name);
 std::optional<Policy> parse_policy(std::string_view name);
 std::optional<MemoryMode> parse_memory_mode(std::string_view name);
 std::optional<UpdateCase> parse_update_case(std::string_view name);
 std::optional<AutoRule> parse_auto_rule(std::string_view name);
+std::optional<BuildPreset> parse_build_preset(std::string_view name);
+std::optional<RayGrouping> parse_ray_grouping(std::string_view name);
 /// What these settings say of Policy::automatic; the default for kinds that have no such setting.
 AutoRule auto_rule(const StructureSettings& settings);
 std::optional<IntersectionMode> parse_intersection_mode(std::string_view name);

@@ -8,8 +8,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace encore::renderer {
 
@@ -57,12 +63,65 @@ struct Sampled {
   }
 };
 
+#if defined(__SSE2__)
+/// perspective_rays() through the centres of two pixels of a row at once, operation for operation.
+class TwoRays {
+ public:
+  TwoRays(const CameraFrame& frame, int y)
+      : row_(Axes(frame.forward + (frame.center_y - (y + 0.5)) * frame.up)),
+        right_(Axes(frame.right)),
+        start_(_mm_setr_ps(frame.origin.x, frame.origin.y, frame.origin.z, 0.0F)),
+        center_x_(_mm_set1_pd(frame.center_x)) {}
+
+  /// Writes the rays of pixels x and x + 1.
+  void write(int x, scene::Ray* rays) const {
+    const __m128d column = _mm_sub_pd(_mm_setr_pd(x + 0.5, x + 1 + 0.5), center_x_);
+    const __m128d ax = _mm_add_pd(row_.x, _mm_mul_pd(column, right_.x));
+    const __m128d ay = _mm_add_pd(row_.y, _mm_mul_pd(column, right_.y));
+    const __m128d az = _mm_add_pd(row_.z, _mm_mul_pd(column, right_.z));
+    const __m128d squared =
+        _mm_add_pd(_mm_add_pd(_mm_mul_pd(ax, ax), _mm_mul_pd(ay, ay)), _mm_mul_pd(az, az));
+    const __m128d scale = _mm_div_pd(_mm_set1_pd(1.0), _mm_sqrt_pd(squared));
+    const __m128 dx = _mm_cvtpd_ps(_mm_mul_pd(ax, scale));
+    const __m128 dy = _mm_cvtpd_ps(_mm_mul_pd(ay, scale));
+    const __m128 dz = _mm_cvtpd_ps(_mm_mul_pd(az, scale));
+    const __m128 xy = _mm_unpacklo_ps(dx, dy);
+    const __m128 z_end = _mm_unpacklo_ps(dz, _mm_set1_ps(std::numeric_limits<float>::infinity()));
+    auto* const to = reinterpret_cast<float*>(rays);
+    _mm_storeu_ps(to, start_);
+    _mm_storeu_ps(to + 4, _mm_movelh_ps(xy, z_end));
+    _mm_storeu_ps(to + 8, start_);
+    _mm_storeu_ps(to + 12, _mm_movehl_ps(z_end, xy));
+  }
+
+ private:
+  struct Axes {
+    __m128d x, y, z;
+    explicit Axes(const glm::dvec3& v)
+        : x(_mm_set1_pd(v.x)), y(_mm_set1_pd(v.y)), z(_mm_set1_pd(v.z)) {}
+  };
+  static_assert(sizeof(scene::Ray) == 32 && offsetof(scene::Ray, t_min) == 12 &&
+                offsetof(scene::Ray, direction) == 16 && offsetof(scene::Ray, t_max) == 28);
+
+  Axes row_, right_;
+  __m128 start_;
+  __m128d center_x_;
+};
+#endif
+
 template <class Place>
 void perspective_rays(const CameraFrame& frame, const PixelRect& rect, const Place& place,
                       std::span<scene::Ray> rays) {
   std::size_t i = 0;
   for (int y = rect.y0; y < rect.y1; ++y) {
-    for (int x = rect.x0; x < rect.x1; ++x, ++i) {
+    int x = rect.x0;
+#if defined(__SSE2__)
+    if constexpr (std::is_same_v<Place, Centre>) {
+      const TwoRays two(frame, y);
+      for (; x + 2 <= rect.x1; x += 2, i += 2) two.write(x, &rays[i]);
+    }
+#endif
+    for (; x < rect.x1; ++x, ++i) {
       const glm::dvec2 offset = place(x, y);
       const glm::dvec3 row = frame.forward + (frame.center_y - (y + offset.y)) * frame.up;
       const glm::dvec3 along = row + ((x + offset.x) - frame.center_x) * frame.right;

@@ -1,7 +1,7 @@
 #include "renderer/cpu_tracer.h"
 
+#include "accel/task_handover.h"
 #include "renderer/camera_rays.h"
-#include "renderer/task_handover.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -21,7 +21,7 @@ namespace {
 using scene::Hit;
 using scene::Ray;
 
-// Measured from 8 x 8 to 64 x 64: no difference above the noise (5 %). This size keeps all workers
+// Packets take squares of 8 x 8 of it (accel/wide). This size keeps all workers
 // busy to the end of a small image, and a tile's rays and hits (12 KiB) in the first-level cache.
 constexpr int kTileWidth = 16;
 constexpr int kTileHeight = 16;
@@ -39,6 +39,10 @@ struct TileBuffer {
       : rays(std::span(ray_store).first(tile.count())),
         hits(std::span(hit_store).first(tile.count())) {
     camera_rays(frame, tile, rays);
+  }
+
+  void trace(const accel::AccelerationStructure& structure, const PixelRect& tile) {
+    structure.intersect_tile(rays, static_cast<std::size_t>(tile.width()), hits);
   }
 };
 
@@ -130,7 +134,7 @@ void CpuTracer::cast(const CameraFrame& frame, Image& image) {
   const ShadingScene shading{input_.scene, input_.triangles};
   for_each_tile(image.width, image.height, [&](const PixelRect& tile) {
     TileBuffer buffer(frame, tile);
-    input_.structure->intersect(buffer.rays, buffer.hits);
+    buffer.trace(*input_.structure, tile);
     hits_.fetch_add(count_hits(buffer.hits), std::memory_order_relaxed);
     // Shade row by row, as the rows of a tile lie apart in the image.
     const auto columns = static_cast<std::size_t>(tile.width());
@@ -178,7 +182,7 @@ void CpuTracer::trace_hits(const scene::Camera& camera, int width, int height,
   hits.resize(PixelRect{0, 0, width, height}.count());
   for_each_tile(width, height, [&](const PixelRect& tile) {
     TileBuffer buffer(frame, tile);
-    input_.structure->intersect(buffer.rays, buffer.hits);
+    buffer.trace(*input_.structure, tile);
     hits_.fetch_add(count_hits(buffer.hits), std::memory_order_relaxed);
     store_tile<Hit>(tile, buffer.hits, width, hits);
   });
@@ -223,7 +227,7 @@ void CpuTracer::for_each_tile(int width, int height, const TileWork& work) {
     return;
   }
   // One tile a task: tiles differ a hundredfold in cost, and a task costs far less than a tile.
-  TaskHandover handover;
+  accel::TaskHandover handover;
   const auto run_tiles = [&](const tbb::blocked_range<int>& range) {
     for (int index = range.begin(); index < range.end(); ++index) run_tile(index);
   };

@@ -1,23 +1,14 @@
 #include "renderer/gpu_refit.h"
 
+#include "renderer/gpu_each.h"
 #include "shaders/shared/bindings.h"
 
-#include <epoxy/gl.h>
-
-#include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace encore::renderer {
 
 namespace {
-
-constexpr std::uint32_t kGroupSize = 128;
-
-std::string group_define() {
-  return "ENCORE_GROUP_SIZE " + std::to_string(kGroupSize);
-}
 
 const char* case_define(accel::UpdateCase update_case) {
   switch (update_case) {
@@ -33,18 +24,6 @@ const char* case_define(accel::UpdateCase update_case) {
   return "ENCORE_UPDATE_REAL";
 }
 
-/// One thread a node, in rows of work groups, since a device need not take more than 65,535 of them
-/// along an axis.
-void run_for_each_node(const gl::Program& program, std::size_t nodes) {
-  constexpr std::size_t kGroupsPerRow = 32768;
-  const std::size_t groups = (nodes + kGroupSize - 1) / kGroupSize;
-  const std::size_t columns = std::min(groups, kGroupsPerRow);
-  const std::size_t rows = (groups + columns - 1) / columns;
-  program.use();
-  program.set("node_count", static_cast<unsigned>(nodes));
-  glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
-}
-
 }  // namespace
 
 GpuRefit::GpuRefit(std::shared_ptr<gl::Context> context, const accel::Bvh& bvh)
@@ -56,8 +35,7 @@ void GpuRefit::run(gl::Buffer& nodes, const gl::Buffer& triangles) {
   if (linked_version_ != bvh_.version()) link(nodes);
 
   const accel::UpdateCase update_case = bvh_.settings().update_case;
-  const auto program =
-      context_->programs().compute("refit.comp", {case_define(update_case), group_define()});
+  const auto program = each_program(*context_, "refit.comp", {case_define(update_case)});
   const std::size_t pairs = node_count / 2 + 1;
   arrivals_.fill(0, pairs * sizeof(std::uint32_t));
   nodes.bind_storage(ENCORE_BINDING_NODES);
@@ -67,8 +45,7 @@ void GpuRefit::run(gl::Buffer& nodes, const gl::Buffer& triangles) {
   if (update_case == accel::UpdateCase::average) {
     leaf_writes_.bind_storage(ENCORE_BINDING_LEAF_WRITES);
   }
-  run_for_each_node(*program, node_count);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  run_for_each(*program, node_count);
 }
 
 void GpuRefit::link(const gl::Buffer& nodes) {
@@ -82,11 +59,10 @@ void GpuRefit::link(const gl::Buffer& nodes) {
     leaf_writes_.reserve(bits.size() * sizeof(std::uint32_t), most);
     leaf_writes_.write(std::as_bytes(std::span(bits)));
   }
-  const auto program = context_->programs().compute("link_parents.comp", {group_define()});
+  const auto program = each_program(*context_, "link_parents.comp");
   nodes.bind_storage(ENCORE_BINDING_NODES);
   parents_.bind_storage(ENCORE_BINDING_PARENTS);
-  run_for_each_node(*program, node_count);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  run_for_each(*program, node_count);
   linked_version_ = bvh_.version();
 }
 

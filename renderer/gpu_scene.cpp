@@ -284,11 +284,19 @@ void GpuScene::bind_bounces() const {
   bounces_.bind_storage(ENCORE_BINDING_BOUNCES);
 }
 
-gl::Buffer* GpuScene::nodes() {
+gl::Buffer* GpuScene::structure_buffer(int binding) {
   for (StructureBuffer& part : structure_buffers_) {
-    if (part.binding == ENCORE_BINDING_NODES) return &part.buffer;
+    if (part.binding == binding) return &part.buffer;
   }
   return nullptr;
+}
+
+gl::Buffer* GpuScene::nodes() {
+  return structure_buffer(ENCORE_BINDING_NODES);
+}
+
+gl::Buffer* GpuScene::references() {
+  return structure_buffer(ENCORE_BINDING_REFERENCES);
 }
 
 }  // namespace encore::renderer

@@ -53,8 +53,9 @@ class GpuScene {
   [[nodiscard]] const gpu::StructureParameters& structure() const { return structure_; }
   /// For drawing without rays: one vertex every 16 bytes, three a triangle, as in gpu::Triangle.
   [[nodiscard]] const gl::Buffer& triangles() const { return triangles_; }
-  /// The nodes of a tree; null where there is none.
+  /// The nodes of a tree, and which triangles its leaves refer to; null where there are none.
   [[nodiscard]] gl::Buffer* nodes();
+  [[nodiscard]] gl::Buffer* references();
   /// Which version of the structure the device has; empty where there is none.
   [[nodiscard]] std::optional<std::uint64_t> structure_version() const {
     return structure_version_;
@@ -66,6 +67,7 @@ class GpuScene {
     gl::Buffer buffer;
   };
   [[nodiscard]] bool changed() const;
+  [[nodiscard]] gl::Buffer* structure_buffer(int binding);
   Transfer upload();
   void send(gl::Buffer& buffer, std::span<const std::byte> bytes, Transfer& sum);
   void send_triangles(Transfer& sum);

@@ -126,6 +126,8 @@ void GpuTracer::init(const RenderInput& input) {
   context_->make_current();
   gl::require_compute(context_->capabilities());
   refit_.reset();
+  wide_refit_.reset();
+  built_for_.reset();
   ++scenes_;
   doing_ = "tracing rays through " + name;
   transfer_ = scene_.upload_all(input);
@@ -138,13 +140,15 @@ void GpuTracer::refresh() {
   ready_ = false;
   context_->make_current();
   transfer_ = scene_.upload_changes();
+  if (built_for_ && built_for_ != sent()) built_for_.reset();
   prepare_to_draw();
 }
 
 void GpuTracer::prepare_to_draw() {
   if (scene_.needs().textures) check_textures_fit(context_->capabilities());
-  launch_.set_scene({.kind = *kind_,
-                     .depth = scene_.structure().depth,
+  // What the device has built are nodes like those of bvh-median.
+  launch_.set_scene({.kind = built_for_ ? accel::StructureKind::bvh_median : *kind_,
+                     .depth = built_for_ ? build_->most_depth() : scene_.structure().depth,
                      .needs = scene_.shading(),
                      .lights = scene_.light_count() > 0,
                      .intersection = scene_.input().structure->intersection()});
@@ -153,6 +157,11 @@ void GpuTracer::prepare_to_draw() {
   if (!scene_.needs().paths()) picture_program_ = launch_.program(TraceOutput::picture);
   context_->check("preparing to draw");
   ready_ = true;
+}
+
+void GpuTracer::bind_scene() const {
+  scene_.bind();
+  if (built_for_) build_->bind();
 }
 
 void GpuTracer::check_ready() const {
@@ -187,7 +196,7 @@ void GpuTracer::draw_samples(const scene::Camera& camera, int width, int height,
   send_camera(camera, width, height);
   check_samples(first, count, static_cast<std::uint32_t>(scene_.rays().samples));
   picture_.resize(width, height, context_->capabilities().texture_size);
-  scene_.bind();
+  bind_scene();
   picture_.bind();
   rays_drawn_.reset();
   timer_.begin();
@@ -235,26 +244,68 @@ const accel::Bvh* GpuTracer::hierarchy() const {
   return kind_ ? dynamic_cast<const accel::Bvh*>(scene_.input().structure) : nullptr;
 }
 
+const accel::WideBvh* GpuTracer::wide_hierarchy() const {
+  return kind_ ? dynamic_cast<const accel::WideBvh*>(scene_.input().structure) : nullptr;
+}
+
 bool GpuTracer::can_refit() const {
-  return hierarchy() != nullptr;
+  return hierarchy() != nullptr || wide_hierarchy() != nullptr;
 }
 
 void GpuTracer::refit() {
-  const accel::Bvh* bvh = hierarchy();
-  if (bvh == nullptr) return Tracer::refit();
+  if (!can_refit()) return Tracer::refit();
   check_ready();
-  if (scene_.structure_version() != bvh->version()) {
+  context_->make_current();
+  if (built_for_) {
+    build_->fit(scene_.triangles());
+  } else {
+    fit_host_nodes();
+  }
+  gl::finish("refitting the structure");
+  context_->check("refitting the structure");
+}
+
+void GpuTracer::fit_host_nodes() {
+  if (scene_.structure_version() != scene_.input().structure->version()) {
     throw std::logic_error("the structure has changed since it was sent: refresh() before refit()");
   }
   const std::size_t triangles = scene_.triangle_count();
-  if (bvh->nodes().size() != (triangles == 0 ? 0 : 2 * triangles - 1)) {
+  const accel::Bvh* bvh = hierarchy();
+  const accel::WideBvh* wide = wide_hierarchy();
+  if (bvh != nullptr ? bvh->nodes().size() != (triangles == 0 ? 0 : 2 * triangles - 1)
+                     : wide->tree().triangles != triangles) {
     throw std::logic_error("the structure is of another number of triangles: build it anew");
   }
+  if (bvh != nullptr) {
+    if (!refit_) refit_ = std::make_unique<GpuRefit>(context_, *bvh);
+    refit_->run(*scene_.nodes(), scene_.triangles());
+  } else {
+    if (!wide_refit_) wide_refit_ = std::make_unique<GpuWideRefit>(context_, *wide);
+    wide_refit_->run(*scene_.nodes(), *scene_.references(), scene_.triangles());
+  }
+}
+
+GpuTracer::BuiltFor GpuTracer::sent() const {
+  return {scene_.structure_version(), scene_.input().triangles->topology_version};
+}
+
+bool GpuTracer::can_build() const {
+  const accel::WideBvh* wide = wide_hierarchy();
+  return wide != nullptr && wide->settings().preset == accel::BuildPreset::fast;
+}
+
+void GpuTracer::build() {
+  if (!can_build()) return Tracer::build();
+  check_ready();
   context_->make_current();
-  if (!refit_) refit_ = std::make_unique<GpuRefit>(context_, *bvh);
-  refit_->run(*scene_.nodes(), scene_.triangles());
-  gl::finish("refitting the structure");
-  context_->check("refitting the structure");
+  if (!build_) build_ = std::make_unique<GpuBuild>(context_);
+  built_for_.reset();
+  ready_ = false;  // unless it fits
+  build_->run(scene_.triangles(), scene_.triangle_count());
+  gl::finish("building the structure");
+  context_->check("building the structure");
+  built_for_ = sent();
+  prepare_to_draw();
 }
 
 void GpuTracer::trace_bands(TraceOutput output, int width, int height,
@@ -266,7 +317,7 @@ void GpuTracer::trace_bands(TraceOutput output, int width, int height,
   const auto used = launch_.program(output);
   const int band_rows = std::min(rows_of_band(width, bytes_per_ray), height);
   const std::size_t band_bytes = PixelRect{0, 0, width, band_rows}.count() * bytes_per_ray;
-  scene_.bind();
+  bind_scene();
   results_.reserve(band_bytes, context_->capabilities().storage_block_bytes);
   results_.bind_storage(binding);
   complete_ = true;
@@ -313,7 +364,7 @@ void GpuTracer::trace_rays(std::span<const scene::Ray> rays, std::span<scene::Hi
   const int width = static_cast<int>(std::min<std::size_t>(rays.size(), kRaysPerRow));
   rays_.reserve(most_rays * sizeof(scene::Ray), most);
   results_.reserve(most_rays * sizeof(scene::Hit), most);
-  scene_.bind();
+  bind_scene();
   rays_.bind_storage(ENCORE_BINDING_RAYS);
   results_.bind_storage(ENCORE_BINDING_HITS);
   complete_ = true;

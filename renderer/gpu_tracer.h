@@ -3,9 +3,11 @@
 #include "accel/settings.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/fence.h"
+#include "renderer/gpu_build.h"
 #include "renderer/gpu_paths.h"
 #include "renderer/gpu_refit.h"
 #include "renderer/gpu_scene.h"
+#include "renderer/gpu_wide_refit.h"
 #include "renderer/paced_dispatch.h"
 #include "renderer/picture.h"
 #include "renderer/renderer.h"
@@ -60,6 +62,13 @@ class GpuTracer final : public Tracer {
   /// another number of triangles than the list: refresh() first, rebuild before that.
   void refit() override;
 
+  /// The preset `fast` of bvh-sah (see GpuBuild).
+  [[nodiscard]] bool can_build() const override;
+  /// Also throws GlError if the tree does not fit on the device.
+  void build() override;
+  /// Whether rays go through what build() has built.
+  [[nodiscard]] bool built() const { return built_for_.has_value(); }
+
   void trace_hits(const scene::Camera& camera, int width, int height,
                   std::vector<scene::Hit>& hits) override;
   void trace_counters(const scene::Camera& camera, int width, int height,
@@ -73,10 +82,21 @@ class GpuTracer final : public Tracer {
   [[nodiscard]] bool complete() const override;
 
  private:
+  /// What a device's own tree holds for: the host's structure and the order of the triangles.
+  struct BuiltFor {
+    std::optional<std::uint64_t> structure_version;
+    std::uint64_t topology_version = 0;
+    friend bool operator==(const BuiltFor&, const BuiltFor&) = default;
+  };
+  [[nodiscard]] BuiltFor sent() const;
+
   [[nodiscard]] const accel::Bvh* hierarchy() const;
+  [[nodiscard]] const accel::WideBvh* wide_hierarchy() const;
   [[nodiscard]] std::uint64_t pace_key(int height) const;
   void check_ready() const;
   void prepare_to_draw();
+  void bind_scene() const;
+  void fit_host_nodes();
   void send_camera(const scene::Camera& camera, int width, int height);
   void draw_plain(int width, int height);
   void trace_bands(TraceOutput output, int width, int height, std::span<std::byte> results);
@@ -91,6 +111,9 @@ class GpuTracer final : public Tracer {
   std::string doing_;                             ///< for messages
   std::shared_ptr<gl::Program> picture_program_;  ///< null: paths_ draws pictures
   std::unique_ptr<GpuRefit> refit_;               ///< made when first asked for
+  std::unique_ptr<GpuWideRefit> wide_refit_;      ///< made when first asked for
+  std::unique_ptr<GpuBuild> build_;               ///< made when first asked for
+  std::optional<BuiltFor> built_for_;             ///< empty: rays go through the host's structure
   PacedDispatch frames_;                          ///< of pictures
   PacedDispatch batches_;                         ///< of everything else
   bool complete_ = true;

@@ -24,4 +24,8 @@ void Tracer::refit() {
   throw std::logic_error("this renderer has no structure of its own to refit");
 }
 
+void Tracer::build() {
+  throw std::logic_error("this renderer cannot build a structure on its device");
+}
+
 }  // namespace encore::renderer

@@ -119,6 +119,15 @@ class Tracer : public Renderer {
   /// done. The host's structure stays as it was. Throws std::logic_error unless can_refit().
   virtual void refit();
 
+  /// Whether build() is there: the device can build a tree over the triangles that it was sent,
+  /// which takes the place of the host's structure until another one is sent.
+  [[nodiscard]] virtual bool can_build() const { return false; }
+  /// Builds over the triangles that the last refresh() sent, and returns when it is done: rays go
+  /// through that tree from now on, and refit() fits it. It is given up when the host's structure
+  /// was built or updated, or triangles come, go or change places, with the refresh() that says so.
+  /// The host's structure stays as it was. Throws std::logic_error unless can_build().
+  virtual void build();
+
   /// Only the nearest hits, row by row from the top left, without shading; resizes `hits`.
   virtual void trace_hits(const scene::Camera& camera, int width, int height,
                           std::vector<scene::Hit>& hits) = 0;

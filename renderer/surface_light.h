@@ -37,6 +37,16 @@ struct LitSurface {
   glm::dvec3 normal{0.0};  ///< unit shading normal on the viewer's side
   glm::dvec3 view{0.0};    ///< unit, towards the viewer
   double shininess = 0.0;
+  bool shines = false;  ///< has a specular colour; of use only where highlights are wanted
+
+  template <ShadingNeeds kNeeds>
+  void set_material(const scene::Material& of) {
+    material = &of;
+    if constexpr (kNeeds.specular) {
+      shininess = std::max(0.0, static_cast<double>(of.shininess));
+      shines = of.specular != glm::vec3(0.0F);
+    }
+  }
 };
 
 /// Light that arrives at a point, by how it leaves again.
@@ -49,7 +59,7 @@ template <ShadingNeeds kNeeds>
 LitSurface lit_surface(const ShadingScene& input, const scene::Ray& ray, const scene::Hit& hit) {
   const scene::Triangle& triangle = input.triangles->triangles[hit.triangle];
   LitSurface surface;
-  surface.material = &material_of(*input.scene, triangle);
+  surface.set_material<kNeeds>(material_of(*input.scene, triangle));
   const glm::dvec3 corner(triangle.v0);
   const glm::dvec3 edge1 = glm::dvec3(triangle.v1) - corner;
   const glm::dvec3 edge2 = glm::dvec3(triangle.v2) - corner;
@@ -69,8 +79,16 @@ LitSurface lit_surface(const ShadingScene& input, const scene::Ray& ray, const s
 
   // From barycentrics: exact to the triangle's size, however far the eye is away.
   surface.point = corner + edge1 * static_cast<double>(hit.u) + edge2 * static_cast<double>(hit.v);
-  surface.shininess = std::max(0.0, static_cast<double>(surface.material->shininess));
   return surface;
+}
+
+/// `mirrored`: the cosine between the view and the light's mirrored direction.
+inline void add_highlight(const LitSurface& surface, const scene::Light& light, double mirrored,
+                          Reflected& sum) {
+  // What a dull surface does not reflect need not be known.
+  if (!(mirrored > 0.0) || !surface.shines) return;
+  const double highlight = portable_power(std::min(mirrored, 1.0), surface.shininess);
+  sum.specular += light.color * static_cast<float>(highlight);
 }
 
 /// Adds what reaches the surface of a light that nothing stands in front of.
@@ -87,10 +105,7 @@ void add_light(const LitSurface& surface, const scene::Light& light, Reflected& 
     // R = 2 (N.L) N - L, so R.V needs no vector of its own.
     const double mirrored = 2.0 * cosine * glm::dot(surface.normal, surface.view) -
                             glm::dot(to_light, surface.view) * inverse_distance;
-    if (mirrored > 0.0) {
-      const double highlight = portable_power(std::min(mirrored, 1.0), surface.shininess);
-      sum.specular += light.color * static_cast<float>(highlight);
-    }
+    add_highlight(surface, light, mirrored, sum);
   }
 }
 

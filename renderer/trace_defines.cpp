@@ -6,7 +6,7 @@ namespace encore::renderer {
 
 namespace {
 
-enum class Traversal { none, grid, kd_tree, bvh };
+enum class Traversal { none, grid, kd_tree, bvh, wide };
 
 Traversal traversal_of(accel::StructureKind kind) {
   switch (kind) {
@@ -20,6 +20,8 @@ Traversal traversal_of(accel::StructureKind kind) {
       return Traversal::kd_tree;
     case accel::StructureKind::bvh_median:
       return Traversal::bvh;
+    case accel::StructureKind::bvh_sah:
+      return Traversal::wide;
   }
   return Traversal::none;
 }
@@ -38,8 +40,9 @@ void add_structure(const TraceVariant& variant, std::vector<std::string>& define
     defines.emplace_back("ENCORE_TRAVERSE_GRID");
     return;
   }
-  defines.emplace_back(traversal == Traversal::bvh ? "ENCORE_TRAVERSE_BVH"
-                                                   : "ENCORE_TRAVERSE_KDTREE");
+  if (traversal == Traversal::kd_tree) defines.emplace_back("ENCORE_TRAVERSE_KDTREE");
+  if (traversal == Traversal::bvh) defines.emplace_back("ENCORE_TRAVERSE_BVH");
+  if (traversal == Traversal::wide) defines.emplace_back("ENCORE_TRAVERSE_WIDE");
   defines.push_back(define("ENCORE_STACK_SIZE", trace_stack_size(variant.depth)));
 }
 
@@ -139,6 +142,7 @@ std::uint32_t paused_ray_words(const TraceVariant& variant) {
     case Traversal::kd_tree:
       return kHeader + 3 + 3 * stack;
     case Traversal::bvh:
+    case Traversal::wide:
       return kHeader + 2 + 2 * stack;
   }
   return kHeader;

@@ -75,8 +75,8 @@ std::uint32_t paused_ray_words(const TraceVariant& variant);
 /// The defines of a variant: nothing that it does not use is compiled in. Throws
 /// std::invalid_argument for a kind that has no GPU traversal.
 ///
-///   ENCORE_TRAVERSE_GRID, _KDTREE, _BVH  the structure, one of these
-///   ENCORE_STACK_SIZE n                  trees: trace_stack_size()
+///   ENCORE_TRAVERSE_GRID, _KDTREE, _BVH, _WIDE  the structure, one of these
+///   ENCORE_STACK_SIZE n                         trees: trace_stack_size()
 ///   ENCORE_MOLLER_TRUMBORE, ENCORE_WATERTIGHT  the intersection mode; neither: precise
 ///   ENCORE_GROUP_X n, ENCORE_GROUP_Y n   the work group
 ///   ENCORE_OUTPUT_PICTURE, _HITS, _COUNTERS  what is written, one of these

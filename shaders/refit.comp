@@ -7,13 +7,12 @@
 // ENCORE_UPDATE_BEST     the same, but no leaf is written
 // ENCORE_UPDATE_AVERAGE  the leaves whose bit is set are written, and all nodes above them
 // ENCORE_UPDATE_WORST    everything is written
-layout(local_size_x = ENCORE_GROUP_SIZE) in;
-
+#include "each.glsl"
+#include "ordered_bits.glsl"
 #include "shaders/shared/bindings.h"
 
-// Boxes are handled as bits and compared as whole numbers, so that no device's way with denormal
-// numbers or with the sign of zero can change a box. A node is two of these vectors, (min, first)
-// and (max, count); a triangle three, a vertex and something else each.
+// A node is two of these vectors, (min, first) and (max, count); a triangle three, a vertex and
+// something else each.
 layout(std430, binding = ENCORE_BINDING_NODES) coherent buffer Nodes {
   uvec4 nodes[];
 };
@@ -33,31 +32,10 @@ layout(std430, binding = ENCORE_BINDING_LEAF_WRITES) readonly restrict buffer Le
 };
 #endif
 
-uniform uint node_count;
 #ifdef ENCORE_UPDATE_BEST
 // Always 0, which a compiler cannot know: so it cannot leave out the comparison of the boxes.
 uniform uint leaves_to_write;
 #endif
-
-// A whole number in the order of the floats with these bits; both zeros give 0.
-int ordered(uint bits) {
-  int whole = int(bits);
-  return whole < 0 ? int(0x80000000u) - whole : whole;
-}
-
-// Where equal, the second one, as on the CPU: it matters for the sign of zero.
-uint lower_of(uint a, uint b) {
-  return ordered(a) < ordered(b) ? a : b;
-}
-uint upper_of(uint a, uint b) {
-  return ordered(a) > ordered(b) ? a : b;
-}
-uvec3 lower_of(uvec3 a, uvec3 b) {
-  return uvec3(lower_of(a.x, b.x), lower_of(a.y, b.y), lower_of(a.z, b.z));
-}
-uvec3 upper_of(uvec3 a, uvec3 b) {
-  return uvec3(upper_of(a.x, b.x), upper_of(a.y, b.y), upper_of(a.z, b.z));
-}
 
 bool same(uvec3 a, uvec3 b) {
   return ordered(a.x) == ordered(b.x) && ordered(a.y) == ordered(b.y) &&
@@ -106,9 +84,8 @@ bool fit_inner(uint node) {
 }
 
 void main() {
-  uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  uint node = group * uint(ENCORE_GROUP_SIZE) + gl_LocalInvocationID.x;
-  if (node >= node_count || nodes[2u * node + 1u].w == 0u) return;
+  uint node = thread_index();
+  if (node >= thread_count || nodes[2u * node + 1u].w == 0u) return;
   bool changed = fit_leaf(node);
   while (node != 0u) {
     uint pair = (node + 1u) / 2u;

@@ -19,7 +19,14 @@ layout(std430, binding = ENCORE_BINDING_NODES) readonly restrict buffer Nodes {
   KdNode nodes[];
 };
 #endif
-#if defined(ENCORE_TRAVERSE_KDTREE) || defined(ENCORE_TRAVERSE_GRID)
+#ifdef ENCORE_TRAVERSE_WIDE
+// gpu::WideNode, in rows of four numbers.
+layout(std430, binding = ENCORE_BINDING_NODES) readonly restrict buffer Nodes {
+  uvec4 node_rows[];
+};
+#endif
+#if defined(ENCORE_TRAVERSE_KDTREE) || defined(ENCORE_TRAVERSE_GRID) || \
+    defined(ENCORE_TRAVERSE_WIDE)
 layout(std430, binding = ENCORE_BINDING_REFERENCES) readonly restrict buffer References {
   uint references[];
 };

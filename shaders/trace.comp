@@ -29,6 +29,9 @@ uniform int first_slot;  // the ray whose slot is the first
 #ifdef ENCORE_TRAVERSE_BVH
 #include "traverse_bvh.glsl"
 #endif
+#ifdef ENCORE_TRAVERSE_WIDE
+#include "traverse_wide.glsl"
+#endif
 #ifdef ENCORE_TRAVERSE_KDTREE
 #include "traverse_kdtree.glsl"
 #endif

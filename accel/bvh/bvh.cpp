@@ -26,24 +26,27 @@ void Bvh::build(std::span<const Triangle> triangles) {
   }
   mark_changed();
   BuildMeter meter(build_watch());
+  Workers workers(build_threads(), triangles.size());
   try {
-    build_over(triangles, meter);
+    workers.run([&] { build_over(triangles, meter, workers); });
   } catch (...) {
     BuildMeter unwatched(nullptr);
-    build_over({}, unwatched);
+    Workers alone(1);
+    build_over({}, unwatched, alone);
     throw;
   }
   meter.finish();
 }
 
-void Bvh::build_over(std::span<const Triangle> triangles, BuildMeter& meter) {
+void Bvh::build_over(std::span<const Triangle> triangles, BuildMeter& meter,
+                     const Workers& workers) {
   triangles_ = triangles;
   allocations_ = {};
   refit_ = {};
   quality_.forget();
   max_depth_ = 0;
   pairs_.reset(triangles.size(), memory_, allocations_);
-  if (!triangles.empty()) build_median(meter);
+  if (!triangles.empty()) build_median(meter, workers);
   if (memory_ == MemoryMode::fresh) {
     items_.release();
     changed_.release();

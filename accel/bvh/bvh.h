@@ -2,8 +2,12 @@
 
 #include "accel/acceleration_structure.h"
 #include "accel/array.h"
+#include "accel/bvh/bvh_depth.h"
 #include "accel/bvh/bvh_quality.h"
+#include "accel/parallel.h"
 #include "accel/settings.h"
+#include "accel/shared_meter.h"
+#include "accel/simd/isa.h"
 #include "shaders/shared/gpu_types.h"
 
 #include <cstdint>
@@ -32,13 +36,8 @@ struct RefitCounts {
 /// too and reaches every node.
 class Bvh final : public TracedStructure<Bvh> {
  public:
-  /// Nodes at this depth and below are split into halves by number, whatever their triangles look
-  /// like.
-  static constexpr std::uint32_t kMaxSpatialDepth = 216;
-  /// No node lies deeper. Spatial medians alone give no such bound: a triangle goes by its lower
-  /// end, so a row of long ones that begin just below the middle loses one triangle a level. Halves
-  /// of less than 2^32 triangles are single ones after at most 32 levels.
-  static constexpr std::uint32_t kMaxDepth = kMaxSpatialDepth + 32;
+  static constexpr std::uint32_t kMaxSpatialDepth = kBvhMostSpatialDepth;
+  static constexpr std::uint32_t kMaxDepth = kBvhMostDepth;
 
   Bvh(StructureKind kind, const BvhSettings& settings, MemoryMode memory);
 
@@ -71,6 +70,14 @@ class Bvh final : public TracedStructure<Bvh> {
   /// The nodes; the root is the first. Empty if there are no triangles.
   [[nodiscard]] std::span<const gpu::BvhNode> nodes() const;
   [[nodiscard]] const RefitCounts& last_refit() const { return refit_; }
+  /// Which instruction set traces tiles from now on; chosen_isa() unless a test asks for another.
+  void set_isa(Isa isa) { isa_ = isa; }
+
+ protected:
+  void intersect_together(std::span<const Ray> rays, std::size_t width,
+                          std::span<Hit> hits) const override;
+  void occluded_together(std::span<const Ray> rays, std::size_t width,
+                         std::span<std::uint8_t> blocked) const override;
 
  private:
   /// The two children of one node: a cache line.
@@ -85,6 +92,12 @@ class Bvh final : public TracedStructure<Bvh> {
     std::uint32_t unused;
   };
   struct Range;
+  /// A node to be built, and all below it.
+  struct Branch {
+    std::uint32_t node, begin, end, depth;
+    std::uint32_t next_child;  ///< where the nodes below it begin
+    [[nodiscard]] std::uint32_t size() const { return end - begin; }
+  };
 
   // Node 0, the root, is the right half of pair 0, whose left half is not used: so pair k holds the
   // nodes 2k - 1 and 2k.
@@ -99,19 +112,33 @@ class Bvh final : public TracedStructure<Bvh> {
     return count == 0 ? (first - 1) / 2 : static_cast<std::uint32_t>(triangles_.size()) - 1 + first;
   }
 
-  void build_over(std::span<const Triangle> triangles, BuildMeter& meter);
-  void build_median(BuildMeter& meter);
-  void fill_items(BuildMeter& meter);
+  void build_over(std::span<const Triangle> triangles, BuildMeter& meter, const Workers& workers);
+  void build_median(BuildMeter& meter, const Workers& workers);
+  void fill_items(std::size_t begin, std::size_t end);
   Range fit(gpu::BvhNode& node, std::uint32_t begin, std::uint32_t end, BuildMeter& meter) const;
   [[nodiscard]] std::uint32_t split(const Range& range, std::uint32_t depth, BuildMeter& meter);
+  /// Both return the depth of the deepest node.
+  std::uint32_t build_branch(const Branch& branch, BuildMeter& meter);
+  std::uint32_t build_together(const Branch& branch, SharedMeter& meter, const Workers& workers);
+
+  /// Pairs [begin, end) that hold all nodes below some node.
+  struct PairRange {
+    std::size_t begin, end;
+  };
   template <UpdateCase Case>
   void refit();
   template <UpdateCase Case>
-  bool refit_node(std::uint32_t index);
+  void refit_together(const Workers& workers);
+  template <UpdateCase Case>
+  void refit_pair(std::size_t pair, RefitCounts& counts);
+  template <UpdateCase Case>
+  bool refit_node(std::uint32_t index, RefitCounts& counts);
+  void cut_into_branches(std::vector<PairRange>& branches, std::vector<std::size_t>& above) const;
 
   StructureKind kind_;
   BvhSettings settings_;
   MemoryMode memory_;
+  Isa isa_ = chosen_isa();
   std::span<const Triangle> triangles_;
   Array<NodePair> pairs_;
   Array<Item> items_;            // building only

@@ -6,6 +6,7 @@ namespace encore::accel {
 namespace {
 
 constexpr unsigned kXyz = 7;  // the lanes that are coordinates
+constexpr std::size_t kBranchPairs = 1U << 13U;
 
 /// A number that depends on both arguments in no visible way (the finaliser of splitmix64, Steele,
 /// Lea and Flood 2014): makes a seeded choice a leaf without carrying a generator's state along.
@@ -39,7 +40,7 @@ bool differs(const gpu::BvhNode& node, const FourFloats& lower, const FourFloats
 
 /// Refits one node whose children are done; true if its parent must be looked at.
 template <UpdateCase Case>
-bool Bvh::refit_node(std::uint32_t index) {
+bool Bvh::refit_node(std::uint32_t index, RefitCounts& counts) {
   gpu::BvhNode& node = root()[index];
   if (node.count != 0) {
     // Leaf: compare the stored box with the triangle's, then write what the case asks for.
@@ -50,7 +51,7 @@ bool Bvh::refit_node(std::uint32_t index) {
     const FourFloats lower = min(min(a, b), c);
     const FourFloats upper = max(max(a, b), c);
     const bool changed = differs(node, lower, upper);
-    refit_.leaves_changed += changed ? 1 : 0;
+    counts.leaves_changed += changed ? 1 : 0;
     bool write = changed;
     if constexpr (Case == UpdateCase::best) write = false;
     if constexpr (Case == UpdateCase::average) {
@@ -59,7 +60,7 @@ bool Bvh::refit_node(std::uint32_t index) {
     if constexpr (Case == UpdateCase::worst) write = true;
     if (!write) return false;
     write_box(node, lower, upper);
-    ++refit_.leaves_written;
+    ++counts.leaves_written;
     return true;
   }
 
@@ -73,20 +74,74 @@ bool Bvh::refit_node(std::uint32_t index) {
       max(FourFloats::load(&children[0].max), FourFloats::load(&children[1].max));
   if (Case == UpdateCase::real && !differs(node, lower, upper)) return false;
   write_box(node, lower, upper);
-  ++refit_.inner_written;
+  ++counts.inner_written;
   return true;
+}
+
+template <UpdateCase Case>
+void Bvh::refit_pair(std::size_t pair, RefitCounts& counts) {
+  const auto right = static_cast<std::uint32_t>(2 * pair);
+  const bool right_changed = refit_node<Case>(right, counts);
+  const bool left_changed = refit_node<Case>(right - 1, counts);
+  changed_[pair] = right_changed || left_changed ? 1 : 0;
 }
 
 template <UpdateCase Case>
 void Bvh::refit() {
   // Children come after their parents, so in reverse every node finds its children done.
-  for (std::size_t pair = pairs_.size() - 1; pair > 0; --pair) {
-    const auto right = static_cast<std::uint32_t>(2 * pair);
-    const bool right_changed = refit_node<Case>(right);
-    const bool left_changed = refit_node<Case>(right - 1);
-    changed_[pair] = right_changed || left_changed ? 1 : 0;
+  RefitCounts counts;
+  for (std::size_t pair = pairs_.size() - 1; pair > 0; --pair) refit_pair<Case>(pair, counts);
+  refit_node<Case>(0, counts);
+  refit_ = counts;
+}
+
+/// All that is below a node lies together: cuts the tree into branches of at most kBranchPairs
+/// pairs, and the pairs above those, in ascending order.
+void Bvh::cut_into_branches(std::vector<PairRange>& branches,
+                            std::vector<std::size_t>& above) const {
+  struct Waiting {
+    std::uint32_t node;
+    std::size_t end;  ///< of the pairs below it
+  };
+  std::vector<Waiting> waiting{{0, pairs_.size()}};
+  while (!waiting.empty()) {
+    const Waiting task = waiting.back();
+    waiting.pop_back();
+    const gpu::BvhNode& node = root()[task.node];
+    if (node.count != 0) continue;
+    const std::size_t pair = (node.first + 1) / 2;
+    if (task.end - pair <= kBranchPairs) {
+      branches.push_back({pair, task.end});
+      continue;
+    }
+    above.push_back(pair);
+    const gpu::BvhNode& right = root()[node.first + 1];
+    const std::size_t left_end = right.count == 0 ? (right.first + 1) / 2 : task.end;
+    waiting.push_back({node.first + 1, task.end});
+    waiting.push_back({node.first, left_end});
   }
-  refit_node<Case>(0);
+}
+
+template <UpdateCase Case>
+void Bvh::refit_together(const Workers& workers) {
+  std::vector<PairRange> branches;
+  std::vector<std::size_t> above;
+  cut_into_branches(branches, above);
+  std::vector<RefitCounts> counts(branches.size() + 1);
+  workers.for_parts(branches.size(), 1, [&](std::size_t k, std::size_t) {
+    RefitCounts here;
+    for (std::size_t pair = branches[k].end; pair-- > branches[k].begin;) {
+      refit_pair<Case>(pair, here);
+    }
+    counts[k] = here;
+  });
+  for (std::size_t i = above.size(); i-- > 0;) refit_pair<Case>(above[i], counts.back());
+  refit_node<Case>(0, counts.back());
+  for (const RefitCounts& each : counts) {
+    refit_.leaves_changed += each.leaves_changed;
+    refit_.leaves_written += each.leaves_written;
+    refit_.inner_written += each.inner_written;
+  }
 }
 
 std::vector<std::uint32_t> Bvh::average_case_leaves() const {
@@ -111,15 +166,19 @@ void Bvh::update(std::span<const Triangle> triangles) {
   quality_.outdate();
   if (triangles.empty()) return;
   changed_.reset(pairs_.size(), memory_, allocations_);
+  Workers workers(build_threads(), triangles.size());
+  const auto run = [&]<UpdateCase Case>() {
+    workers.run([&] { workers.parallel() ? refit_together<Case>(workers) : refit<Case>(); });
+  };
   switch (settings_.update_case) {
     case UpdateCase::real:
-      return refit<UpdateCase::real>();
+      return run.template operator()<UpdateCase::real>();
     case UpdateCase::best:
-      return refit<UpdateCase::best>();
+      return run.template operator()<UpdateCase::best>();
     case UpdateCase::average:
-      return refit<UpdateCase::average>();
+      return run.template operator()<UpdateCase::average>();
     case UpdateCase::worst:
-      return refit<UpdateCase::worst>();
+      return run.template operator()<UpdateCase::worst>();
   }
 }
 

@@ -13,13 +13,6 @@ namespace {
 
 constexpr std::uint64_t kMostReferences = 0xFFFFFFFEU;
 
-// What is done after each pass, as measured for grid-exact over a million triangles; grid-box lists
-// faster and so is ahead of its figure.
-constexpr double kBoundsDone = 0.05;
-constexpr double kRangesDone = 0.15;
-constexpr double kCountDone = 0.75;
-constexpr double kStartsDone = 0.8;
-
 // The limits that the class comment promises.
 std::uint64_t cell_limit(std::uint64_t triangles) {
   return (1U << 24) + 64 * triangles;
@@ -49,54 +42,57 @@ void Grid::build(std::span<const Triangle> triangles) {
   }
   mark_changed();
   BuildMeter meter(build_watch());
+  Workers workers(build_threads(), triangles.size());
   try {
-    build_over(triangles, meter);
+    workers.run([&] { build_over(triangles, meter, workers); });
   } catch (...) {
     references_.shrink(0);
     BuildMeter unwatched(nullptr);
-    build_over({}, unwatched);
+    build_over({}, unwatched, Workers(1));
     throw;
   }
   meter.finish();
 }
 
-void Grid::build_over(std::span<const Triangle> triangles, BuildMeter& meter) {
+void Grid::build_over(std::span<const Triangle> triangles, BuildMeter& meter,
+                      const Workers& workers) {
   triangles_ = triangles;
   allocations_ = {};
   triangle_box_tests_ = 0;
-  choose_cells(find_bounds(meter), meter);
+  choose_cells(find_bounds(meter, workers), meter, workers);
 
-  // First pass: which cells each triangle goes into, and how many references each cell gets.
+  // First pass: which cells each triangle goes into, and how many references each cell gets. Then
+  // memory for exactly these, and the second pass.
   cell_starts_.reset(std::size_t{layout_.cell_count()} + 1, mode_, allocations_);
-  const std::size_t count =
-      kind_ == StructureKind::grid_exact ? list_exact_entries(meter) : list_box_entries(meter);
-  meter.report(kListDone);
-  // Memory for exactly these, then the second pass.
-  references_.reset(count, mode_, allocations_);
-  insert_entries(count, meter);
+  prepare_list();
+  if (workers.parallel()) {
+    list_entries_together(meter, workers);
+    insert_entries_together(meter, workers);
+  } else {
+    const std::size_t count = list_entries(meter);
+    meter.report(kListDone);
+    references_.reset(count, mode_, allocations_);
+    insert_entries(count, meter);
+  }
 
   if (mode_ == MemoryMode::fresh) {
     ranges_.release();
     entries_.release();
     scaled_planes_.release();
+    cursors_.release();
   }
 }
 
-Bounds Grid::find_bounds(BuildMeter& meter) const {
-  Bounds bounds;
-  meter.pass(triangles_.size(), kBoundsDone, [&](std::size_t begin, std::size_t end) {
-    Bounds here = bounds;  // a copy stays in registers
-    for (std::size_t i = begin; i < end; ++i) {
-      prefetch_ahead(triangles_, i);
-      here.extend(scene::bounds_of(triangles_[i]));
-    }
-    bounds = here;
-  });
+Bounds Grid::bounds_of_triangles(std::size_t begin, std::size_t end, Bounds bounds) const {
+  for (std::size_t i = begin; i < end; ++i) {
+    prefetch_ahead(triangles_, i);
+    bounds.extend(scene::bounds_of(triangles_[i]));
+  }
   return bounds;
 }
 
 // Sets up the layout and every triangle's range, with as many cells as the limits allow.
-void Grid::choose_cells(const Bounds& bounds, BuildMeter& meter) {
+void Grid::choose_cells(const Bounds& bounds, BuildMeter& meter, const Workers& workers) {
   const std::uint64_t limit = grid_reference_limit(settings_, triangles_.size());
   limited_ = false;
   ranges_.reset(triangles_.size(), mode_, allocations_);
@@ -104,7 +100,7 @@ void Grid::choose_cells(const Bounds& bounds, BuildMeter& meter) {
   std::uint64_t entries = 0;
   while (true) {
     layout_.divide(bounds, cells, mode_, allocations_);
-    entries = find_ranges(meter);
+    entries = find_ranges(meter, workers);
     if (entries <= limit || cells == 1) break;
     limited_ = true;
     // Volumes shrink about with the cube of the resolution, but never by less than a tenth, so few
@@ -113,23 +109,41 @@ void Grid::choose_cells(const Bounds& bounds, BuildMeter& meter) {
     cells = std::max(1U, static_cast<std::uint32_t>(cells * std::min(ratio, 0.9)));
   }
   meter.report(kRangesDone);
-  entries_.reset(entries + kEntryPadding, mode_, allocations_);
+  const std::size_t parts = (triangles_.size() + kPart - 1) / kPart;
+  entries_.reset(entries + std::max<std::size_t>(parts, 1) * kEntryPadding, mode_, allocations_);
 }
 
-// Returns how many cells all ranges hold together.
-std::uint64_t Grid::find_ranges(BuildMeter& meter) {
+// Returns how many cells the ranges of these triangles hold together.
+std::uint64_t Grid::find_ranges(std::size_t begin, std::size_t end) {
   std::uint64_t entries = 0;
-  // Where there is more than one round, progress stays until the last one is over.
-  const double until = meter.done() > kBoundsDone ? meter.done() : 0.5 * kRangesDone;
-  meter.pass(triangles_.size(), until, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      prefetch_ahead(triangles_, i);
-      const CellRange range = layout_.range_of(scene::bounds_of(triangles_[i]));
-      entries += range.cells();
-      ranges_[i] = range;
-    }
-  });
+  for (std::size_t i = begin; i < end; ++i) {
+    prefetch_ahead(triangles_, i);
+    const CellRange range = layout_.range_of(scene::bounds_of(triangles_[i]));
+    entries += range.cells();
+    ranges_[i] = range;
+  }
   return entries;
+}
+
+std::size_t Grid::list(std::size_t begin, std::size_t end, std::uint32_t* out,
+                       std::uint64_t& tests) const {
+  return kind_ == StructureKind::grid_exact ? list_exact(begin, end, out, tests)
+                                            : list_box(begin, end, out);
+}
+
+std::size_t Grid::list_entries(BuildMeter& meter) {
+  const std::size_t count = ranges_.size();
+  const double from = meter.done();
+  // A few triangles at a time: each may have as many entries as there are cells.
+  constexpr std::size_t kTriangles = 256;
+  const std::size_t part = meter.watched() ? kTriangles : std::max<std::size_t>(count, 1);
+  std::size_t n = 0;
+  std::size_t next_call = 0;
+  for (std::size_t begin = 0; begin < count; begin += part) {
+    if (n >= next_call) next_call = meter.next_call(begin, count, n, from, kListDone);
+    n += list(begin, std::min(begin + part, count), entries_.data() + n, triangle_box_tests_);
+  }
+  return n;
 }
 
 void Grid::insert_entries(std::size_t count, BuildMeter& meter) {

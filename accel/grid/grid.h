@@ -3,9 +3,13 @@
 #include "accel/acceleration_structure.h"
 #include "accel/array.h"
 #include "accel/grid/grid_layout.h"
+#include "accel/grid/grid_tile.h"
+#include "accel/parallel.h"
 #include "accel/settings.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace encore::accel {
 
@@ -42,26 +46,63 @@ class Grid final : public TracedStructure<Grid> {
   template <bool AnyHit, class Tester, class Counter>
   void trace(const Ray& ray, Hit& hit, Counter& counter) const;
 
+  /// Which instruction set traces tiles from now on; chosen_isa() unless a test asks for another.
+  void set_isa(Isa isa) { isa_ = isa; }
+
+ protected:
+  void intersect_together(std::span<const Ray> rays, std::size_t width,
+                          std::span<Hit> hits) const override;
+  void occluded_together(std::span<const Ray> rays, std::size_t width,
+                         std::span<std::uint8_t> blocked) const override;
+
  private:
+  [[nodiscard]] GridTileView tile_view() const;
+
   /// Marks the first entry of a triangle in entries_; cell indices need only 30 bits.
   static constexpr std::uint32_t kFirstOfTriangle = 0x80000000U;
-  /// Share of a build that is done when the entries are listed (see grid.cpp).
+  // What is done after each pass, as measured for grid-exact over a million triangles; grid-box
+  // lists faster and so is ahead of its figure.
+  static constexpr double kBoundsDone = 0.05;
+  static constexpr double kRangesDone = 0.15;
   static constexpr double kListDone = 0.65;
-  /// Emitting may write this many entries past the last valid one.
+  static constexpr double kCountDone = 0.75;
+  static constexpr double kStartsDone = 0.8;
+  /// Emitting may write this many entries past the last valid one of a part.
   static constexpr std::size_t kEntryPadding = 8;
 
-  // Building, in this order; both list_… return the number of entries.
-  void build_over(std::span<const Triangle> triangles, BuildMeter& meter);
-  Bounds find_bounds(BuildMeter& meter) const;
-  void choose_cells(const Bounds& bounds, BuildMeter& meter);
-  std::uint64_t find_ranges(BuildMeter& meter);
-  std::size_t list_box_entries(BuildMeter& meter);    // grid_build_box.cpp
-  std::size_t list_exact_entries(BuildMeter& meter);  // grid_build_exact.cpp
+  /// Triangles that several threads take at a time.
+  static constexpr std::size_t kPart = 4096;
+  /// Such a part: where its entries begin, at most how many there may be, and how many there are.
+  struct Part {
+    std::size_t begin = 0;
+    std::size_t most = 0;
+    std::size_t count = 0;
+  };
+
+  // Building, in this order; what several threads do is in grid_build_parallel.cpp.
+  void build_over(std::span<const Triangle> triangles, BuildMeter& meter, const Workers& workers);
+  Bounds find_bounds(BuildMeter& meter, const Workers& workers) const;
+  Bounds bounds_of_triangles(std::size_t begin, std::size_t end, Bounds bounds) const;
+  void choose_cells(const Bounds& bounds, BuildMeter& meter, const Workers& workers);
+  std::uint64_t find_ranges(BuildMeter& meter, const Workers& workers);
+  std::uint64_t find_ranges(std::size_t begin, std::size_t end);
+  void prepare_list();
+  std::size_t list_entries(BuildMeter& meter);
+  void list_entries_together(BuildMeter& meter, const Workers& workers);
+  /// Lists the entries of some triangles; returns how many. Adds up the triangle-box tests.
+  std::size_t list(std::size_t begin, std::size_t end, std::uint32_t* out,
+                   std::uint64_t& tests) const;
+  std::size_t list_box(std::size_t begin, std::size_t end, std::uint32_t* out) const;
+  std::size_t list_exact(std::size_t begin, std::size_t end, std::uint32_t* out,
+                         std::uint64_t& tests) const;
   void insert_entries(std::size_t count, BuildMeter& meter);
+  void insert_entries_together(BuildMeter& meter, const Workers& workers);
+  void sum_up_counts(std::size_t chunks, BuildMeter& meter, const Workers& workers);
 
   const StructureKind kind_;
   const GridSettings settings_;
   const MemoryMode mode_;
+  Isa isa_ = chosen_isa();
   std::span<const Triangle> triangles_;
 
   // What tracing needs: the references of cell c are references_[starts_[c] .. starts_[c + 1]).
@@ -70,10 +111,14 @@ class Grid final : public TracedStructure<Grid> {
   Array<std::uint32_t> references_;
 
   // What only building needs: the cells of each triangle's bounds; then, triangle by triangle, the
-  // cells that it is to go into; and the planes for the exact test.
+  // cells that it is to go into; the planes for the exact test and their scale; and for several
+  // threads the parts of the list and how far each thread has filled the cells.
   Array<CellRange> ranges_;
   Array<std::uint32_t> entries_;
   Array<float> scaled_planes_;
+  float scale_ = 1.0F;
+  std::vector<Part> parts_;
+  Array<std::uint32_t> cursors_;
 
   bool limited_ = false;  ///< M was lowered
   AllocationCount allocations_;

@@ -1,7 +1,5 @@
 #include "accel/grid/grid.h"
 
-#include <algorithm>
-
 namespace encore::accel {
 
 std::size_t list_range(const GridLayout& layout, CellRange range, std::uint32_t first_mark,
@@ -46,20 +44,10 @@ std::size_t list_range(const GridLayout& layout, CellRange range, std::uint32_t 
 }
 
 // grid-box: a triangle goes into every cell of its bounds.
-std::size_t Grid::list_box_entries(BuildMeter& meter) {
-  std::uint32_t* const entries = entries_.data();
-  const std::size_t count = ranges_.size();
-  const double from = meter.done();
-  // A few triangles at a time: each may have as many entries as there are cells.
-  constexpr std::size_t kTriangles = 256;
-  const std::size_t part = meter.watched() ? kTriangles : std::max<std::size_t>(count, 1);
+std::size_t Grid::list_box(std::size_t begin, std::size_t end, std::uint32_t* out) const {
   std::size_t n = 0;
-  std::size_t next_call = 0;
-  for (std::size_t begin = 0; begin < count; begin += part) {
-    if (n >= next_call) next_call = meter.next_call(begin, count, n, from, kListDone);
-    for (const CellRange range : ranges_.span().subspan(begin, std::min(part, count - begin))) {
-      n += list_range(layout_, range, kFirstOfTriangle, entries + n);
-    }
+  for (const CellRange range : ranges_.span().subspan(begin, end - begin)) {
+    n += list_range(layout_, range, kFirstOfTriangle, out + n);
   }
   return n;
 }

@@ -108,39 +108,40 @@ class CellLister {
 
 }  // namespace
 
-// grid-exact: a triangle goes into the cells that it overlaps.
-std::size_t Grid::list_exact_entries(BuildMeter& meter) {
-  const float scale = normalising_scale(layout_.bounds());
+// What the exact test needs: planes brought to the size of about 1.
+void Grid::prepare_list() {
+  if (kind_ != StructureKind::grid_exact) return;
+  scale_ = normalising_scale(layout_.bounds());
   scaled_planes_.reset(layout_.all_planes().size(), mode_, allocations_);
   for (std::size_t i = 0; i < scaled_planes_.size(); ++i) {
-    scaled_planes_[i] = layout_.all_planes()[i] * scale;
+    scaled_planes_[i] = layout_.all_planes()[i] * scale_;
   }
+}
+
+// grid-exact: a triangle goes into the cells that it overlaps.
+std::size_t Grid::list_exact(std::size_t begin, std::size_t end, std::uint32_t* out,
+                             std::uint64_t& tests) const {
   std::array<const float*, 3> planes;
   for (int axis = 0; axis < 3; ++axis) {
     planes[static_cast<std::size_t>(axis)] =
         scaled_planes_.data() + (layout_.planes(axis) - layout_.all_planes().data());
   }
-
-  CellLister lister(layout_, planes, scale);
-  std::uint32_t* const entries = entries_.data();
-  const double from = meter.done();
+  CellLister lister(layout_, planes, scale_);
   std::size_t n = 0;
-  std::size_t next_call = meter.watched() ? 0 : ~std::size_t{0};
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    if (n >= next_call) next_call = meter.next_call(i, triangles_.size(), n, from, kListDone);
+  for (std::size_t i = begin; i < end; ++i) {
     prefetch_ahead(triangles_, i);
     const CellRange range = ranges_[i];
     if (range.ambiguous()) {
       // A triangle is connected, so it passes through at least one cell of its range.
-      const std::size_t added = lister.list(triangles_[i], range, entries + n);
-      entries[n] |= kFirstOfTriangle;
+      const std::size_t added = lister.list(triangles_[i], range, out + n);
+      out[n] |= kFirstOfTriangle;
       n += added;
     } else {
       // A single cell, or a straight line of cells: all of them are overlapped.
-      n += list_range(layout_, range, kFirstOfTriangle, entries + n);
+      n += list_range(layout_, range, kFirstOfTriangle, out + n);
     }
   }
-  triangle_box_tests_ = lister.tests();
+  tests += lister.tests();
   return n;
 }
 

@@ -31,6 +31,7 @@ NodeKind kind_of(const AccelerationStructure& structure) {
     case StructureKind::kd_sah:
       return NodeKind::split_planes;
     case StructureKind::bvh_median:
+    case StructureKind::bvh_sah:
       return NodeKind::boxes;
     case StructureKind::brute:
       break;

@@ -20,18 +20,21 @@ void KdTree::build(std::span<const Triangle> triangles) {
   }
   mark_changed();
   BuildMeter meter(build_watch());
+  Workers workers(build_threads(), triangles.size());
   try {
-    build_over(triangles, meter);
+    workers.run([&] { build_over(triangles, meter, workers); });
   } catch (...) {
     triangles_ = {};
+    top_memory_ = {};
     BuildMeter unwatched(nullptr);
-    build_over({}, unwatched);
+    build_over({}, unwatched, Workers(1));
     throw;
   }
   meter.finish();
 }
 
-void KdTree::build_over(std::span<const Triangle> triangles, BuildMeter& meter) {
+void KdTree::build_over(std::span<const Triangle> triangles, BuildMeter& meter,
+                        const Workers& workers) {
   triangles_ = triangles;
   Bounds bounds;
   meter.pass(triangles.size(), [&](std::size_t begin, std::size_t end) {
@@ -40,16 +43,31 @@ void KdTree::build_over(std::span<const Triangle> triangles, BuildMeter& meter) 
     bounds = here;
   });
   bounds_ = bounds;
+  const KdLimits limits = kd_limits(settings_, triangles.size());
+  if (!workers.parallel() || !build_together(limits, meter, workers)) build_alone(limits, meter);
+}
 
-  KdBuilder builder(triangles, kd_limits(settings_, triangles.size()), mode_, memory_, meter);
+void KdTree::build_alone(const KdLimits& limits, BuildMeter& meter) {
+  KdBuilder builder(triangles_, limits, mode_, memory_, meter);
   if (kind_ == StructureKind::kd_sah) {
-    KdSahSplitter splitter(settings_, triangles.size(), mode_, sah_memory_, meter);
+    KdSahSplitter splitter(settings_, triangles_.size(), mode_, sah_memory_, meter);
     builder.run(bounds_, splitter);
     if (mode_ == MemoryMode::fresh) sah_memory_.keys.release();
   } else {
     KdMedianSplitter splitter;
     builder.run(bounds_, splitter);
   }
+}
+
+// The same tree by several threads; false if the limits are in the way.
+bool KdTree::build_together(const KdLimits& limits, BuildMeter& meter, const Workers& workers) {
+  // Where nodes might run out, it matters in which order they are made.
+  if (limits.references + kKdDepthCap + 2 > kKdMostNodes) return false;
+  KdTop top(triangles_, limits, mode_, top_memory_, meter, workers);
+  const auto sah = kind_ == StructureKind::kd_sah ? &settings_ : nullptr;
+  const bool whole = top.build(bounds_, sah, memory_, sah_memory_);
+  if (!whole || mode_ == MemoryMode::fresh) top_memory_ = {};
+  return whole;
 }
 
 std::uint64_t KdTree::build_operations() const {

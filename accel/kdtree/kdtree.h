@@ -1,8 +1,10 @@
 #pragma once
 
 #include "accel/acceleration_structure.h"
+#include "accel/kdtree/kd_tile.h"
 #include "accel/kdtree/kdtree_build_sah.h"
 #include "accel/kdtree/kdtree_builder.h"
+#include "accel/kdtree/kdtree_top.h"
 #include "accel/settings.h"
 
 namespace encore::accel {
@@ -33,17 +35,30 @@ class KdTree final : public TracedStructure<KdTree> {
   /// Work of the last build in elementary steps, independent of the machine: references
   /// classified, and for kd-sah ends sorted and candidates examined.
   [[nodiscard]] std::uint64_t build_operations() const;
+  /// Which instruction set traces tiles from now on; chosen_isa() unless a test asks for another.
+  void set_isa(Isa isa) { isa_ = isa; }
+
+ protected:
+  void intersect_together(std::span<const Ray> rays, std::size_t width,
+                          std::span<Hit> hits) const override;
+  void occluded_together(std::span<const Ray> rays, std::size_t width,
+                         std::span<std::uint8_t> blocked) const override;
 
  private:
-  void build_over(std::span<const Triangle> triangles, BuildMeter& meter);
+  [[nodiscard]] KdTileView tile_view() const;
+  void build_over(std::span<const Triangle> triangles, BuildMeter& meter, const Workers& workers);
+  void build_alone(const KdLimits& limits, BuildMeter& meter);
+  bool build_together(const KdLimits& limits, BuildMeter& meter, const Workers& workers);
 
   StructureKind kind_;
   KdTreeSettings settings_;
   MemoryMode mode_;
+  Isa isa_ = chosen_isa();
   std::span<const Triangle> triangles_;
   Bounds bounds_;
   KdBuildMemory memory_;
   KdSahMemory sah_memory_;
+  KdTopMemory top_memory_;  ///< for builds with several threads
 };
 
 }  // namespace encore::accel

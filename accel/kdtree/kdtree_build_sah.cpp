@@ -1,6 +1,7 @@
 #include "accel/kdtree/kdtree_build_sah.h"
 
 #include "accel/kdtree/key_sort.h"
+#include "accel/shared_meter.h"
 
 #include <algorithm>
 #include <limits>
@@ -64,13 +65,16 @@ Best sweep(const Ends& ends, const SplitCost& cost, float box_min, float box_max
 }  // namespace
 
 KdSahSplitter::KdSahSplitter(const KdTreeSettings& settings, std::size_t triangle_count,
-                             MemoryMode mode, KdSahMemory& memory, BuildMeter& meter)
-    : settings_(settings), capacity_(triangle_count), memory_(memory), meter_(meter) {
-  memory_.allocations = {};
-  memory_.keys_sorted = 0;
-  memory_.candidates_examined = 0;
-  // Low, high and planar ends, and a second copy for sorting by digits.
-  memory_.keys.reset(4 * triangle_count, mode, memory_.allocations);
+                             MemoryMode mode, KdSahMemory& memory, BuildMeter& meter,
+                             const Workers& workers)
+    : settings_(settings),
+      capacity_(triangle_count),
+      memory_(memory),
+      meter_(meter),
+      workers_(workers) {
+  memory_.forget_counts();
+  // Low, high and planar ends, and a second copy for sorting by digits; for several threads two.
+  memory_.keys.reset((workers_.parallel() ? 5 : 4) * triangle_count, mode, memory_.allocations);
 }
 
 KdSplit KdSahSplitter::choose(const KdTask& task, std::span<const KdReference> references) {
@@ -82,8 +86,7 @@ KdSplit KdSahSplitter::choose(const KdTask& task, std::span<const KdReference> r
   return {};
 }
 
-KdSplit KdSahSplitter::best_on_axis(const KdTask& task, std::span<const KdReference> references,
-                                    int axis) {
+std::size_t KdSahSplitter::sort_ends(std::span<const KdReference> references, int axis) {
   const std::size_t count = references.size();
   std::uint32_t* low = memory_.keys.data();
   std::uint32_t* high = low + capacity_;
@@ -101,6 +104,43 @@ KdSplit KdSahSplitter::best_on_axis(const KdTask& task, std::span<const KdRefere
   sort_keys(low, spare, count, &meter_);
   sort_keys(high, spare, count, &meter_);
   sort_keys(planar, spare, planar_count, &meter_);
+  return planar_count;
+}
+
+std::size_t KdSahSplitter::sort_ends_together(std::span<const KdReference> references, int axis) {
+  const std::size_t count = references.size();
+  std::uint32_t* low = memory_.keys.data();
+  std::uint32_t* high = low + capacity_;
+  std::uint32_t* planar = high + capacity_;
+  std::uint32_t* spare = planar + capacity_;
+  std::size_t planar_count = 0;
+  const auto sort_low = [&] {
+    TaskMeter own(meter_);
+    for (std::size_t i = 0; i < count; ++i) low[i] = key_of_float(references[i].min[axis]);
+    sort_keys(low, spare, count, &own.meter());
+  };
+  const auto sort_high = [&] {
+    TaskMeter own(meter_);
+    for (std::size_t i = 0; i < count; ++i) {
+      high[i] = key_of_float(references[i].max[axis]);
+      planar[planar_count] = high[i];
+      planar_count += high[i] == key_of_float(references[i].min[axis]) ? 1 : 0;
+    }
+    sort_keys(high, spare + capacity_, count, &own.meter());
+  };
+  workers_.both(true, sort_low, sort_high);
+  sort_keys(planar, spare, planar_count, &meter_);
+  return planar_count;
+}
+
+KdSplit KdSahSplitter::best_on_axis(const KdTask& task, std::span<const KdReference> references,
+                                    int axis) {
+  const std::size_t count = references.size();
+  const std::uint32_t* low = memory_.keys.data();
+  const std::uint32_t* high = low + capacity_;
+  const std::uint32_t* planar = high + capacity_;
+  const std::size_t planar_count =
+      workers_.parallel() ? sort_ends_together(references, axis) : sort_ends(references, axis);
   memory_.keys_sorted += 2 * count + planar_count;
 
   const SplitCost cost(task.box, axis, settings_);

@@ -1,6 +1,7 @@
 #include "accel/kdtree/kdtree_builder.h"
 
 #include "accel/kdtree/kd_node.h"
+#include "accel/kdtree/kdtree_top.h"
 #include "accel/kdtree/triangle_clip.h"
 
 #include <algorithm>
@@ -47,33 +48,67 @@ KdLimits kd_limits(const KdTreeSettings& settings, std::size_t triangle_count) {
   return limits;
 }
 
+bool KdDemand::within(const KdLimits& limits, std::size_t triangle_count) const {
+  return references <= limits.references && nodes <= limits.references &&
+         waiting <= kWaitingPerTriangle * triangle_count + kReferencesOnTop / 4;
+}
+
 void KdBuilder::run(const Bounds& bounds, KdSplitter& splitter) {
   memory_.allocations = {};
   memory_.references_classified = 0;
   memory_.triangle_box_tests = 0;
   shared_out_ = false;
-  if (!grow(bounds, splitter)) {
+  for (;;) {
+    start(triangles_.size());
+    fill_left();
+    if (grow(whole(bounds), splitter)) break;
     shared_out_ = true;
-    grow(bounds, splitter);
   }
   finish();
 }
 
+bool KdBuilder::run_branch(const KdTask& branch, KdSplitter& splitter) {
+  start(branch.count);
+  if (!grow(branch, splitter)) return false;
+  finish();
+  return true;
+}
+
+bool KdBuilder::run_top(const Bounds& bounds, KdSplitter& splitter, KdTop& top) {
+  top_ = &top;
+  start(triangles_.size());
+  top.fill(triangles_, memory_.left.data());
+  if (!grow(whole(bounds), splitter)) return false;
+  finish();
+  return true;
+}
+
+KdTask KdBuilder::whole(const Bounds& bounds) const {
+  return {.box = bounds,
+          .count = static_cast<std::uint32_t>(triangles_.size()),
+          .budget = limits_.references};
+}
+
 // Builds all nodes; false if the limit is in the way, which it cannot be once it is shared out.
-bool KdBuilder::grow(const Bounds& bounds, KdSplitter& splitter) {
-  start();
+bool KdBuilder::grow(const KdTask& root, KdSplitter& splitter) {
   std::array<KdTask, kKdDepthCap + 1> waiting;
   std::size_t waiting_count = 0;
-  KdTask task{.box = bounds,
-              .count = static_cast<std::uint32_t>(triangles_.size()),
-              .budget = limits_.references};
+  KdTask task = root;
   for (;;) {
     if (task.count >= BuildMeter::kNode && meter_.watched()) {
       report(task, {waiting.data(), waiting_count});
     }
     const std::span<const KdReference> references{references_in_work(task.count), task.count};
-    const bool may_split = !must_be_leaf(task);
-    if (may_split && !shared_out_ && beyond_limit(task)) return false;
+    bool may_split = !must_be_leaf(task);
+    bool handed_over = false;
+    if (may_split && top_ != nullptr) {
+      handed_over = top_->take(*this, task, references);
+      may_split = !handed_over;
+    }
+    if (may_split && !shared_out_) {
+      demand_.include(demand_of(task));
+      if (!demand_.within(limits_, triangles_.size())) return false;
+    }
     const KdSplit split = may_split ? splitter.choose(task, references) : KdSplit{};
     make_room(memory_.nodes, node_count_ + 1, memory_.allocations);
     if (split.axis >= 0) {
@@ -91,7 +126,7 @@ bool KdBuilder::grow(const Bounds& bounds, KdSplitter& splitter) {
     }
 
     // A leaf: take the upper child put aside last, whose references lie on top of the stack.
-    add_leaf(references);
+    add_leaf(handed_over ? std::span<const KdReference>{} : references);
     memory_.depth = std::max(memory_.depth, task.depth);
     if (!in_left_) right_count_ -= task.count;
     if (waiting_count == 0) break;
@@ -113,9 +148,9 @@ void KdBuilder::finish() {
   }
 }
 
-void KdBuilder::start() {
+void KdBuilder::start(std::size_t count) {
   // First guesses of what real scenes need; the arrays grow where more is asked for.
-  const std::size_t count = triangles_.size();
+  demand_ = {};
   memory_.depth = 0;
   node_count_ = 0;
   leaf_references_ = 0;
@@ -123,19 +158,20 @@ void KdBuilder::start() {
   in_left_ = true;
   memory_.nodes.reset(count / 2 + 64, mode_, memory_.allocations);
   memory_.references.reset(2 * count + 64, mode_, memory_.allocations);
-  memory_.left.reset(count, mode_, memory_.allocations);
   memory_.right.reset(count + count / 2, mode_, memory_.allocations);
-  meter_.pass(count, [this](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Bounds bounds = scene::bounds_of(triangles_[i]);
-      memory_.left[i] = {bounds.min, static_cast<std::uint32_t>(i), bounds.max, 0};
-    }
+}
+
+void KdBuilder::fill_left() {
+  memory_.left.reset(triangles_.size(), mode_, memory_.allocations);
+  meter_.pass(triangles_.size(), [this](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) memory_.left[i] = kd_reference(triangles_, i);
   });
 }
 
 // What is done is what the root was to take and no node that waits will. (Where splits duplicate
 // many references the nodes begin with more than the root had, and progress starts late.)
 void KdBuilder::report(const KdTask& task, std::span<const KdTask> waiting) {
+  if (top_ != nullptr) return meter_.check();
   double left = BuildMeter::left(task.count);
   for (const KdTask& other : waiting) left += BuildMeter::left(other.count);
   meter_.report(1.0 - left / BuildMeter::left(static_cast<std::uint32_t>(triangles_.size())));
@@ -151,19 +187,19 @@ bool KdBuilder::must_be_leaf(const KdTask& task) const {
   if (node_count_ + 2 + kKdDepthCap > kKdMostNodes) return true;
   // Each reference may end up on both sides, and a leaf needs a share for itself and each of its
   // references: what child() hands out is enough for that.
-  return shared_out_ && (2 * std::uint64_t{task.count} + 3 > task.budget || too_many_wait(task));
+  return shared_out_ && (2 * std::uint64_t{task.count} + 3 > task.budget ||
+                         waiting_with(task) + task.count >
+                             kWaitingPerTriangle * triangles_.size() + kReferencesOnTop / 4);
 }
 
 // Each reference may end up on both sides.
-bool KdBuilder::beyond_limit(const KdTask& task) const {
-  const std::uint64_t waiting = right_count_ + (in_left_ ? std::uint64_t{task.count} : 0);
-  return leaf_references_ + waiting + task.count > limits_.references ||
-         node_count_ + 2 > limits_.references || too_many_wait(task);
+KdDemand KdBuilder::demand_of(const KdTask& task) const {
+  const std::uint64_t waiting = waiting_with(task) + task.count;
+  return {leaf_references_ + waiting, node_count_ + 2, waiting};
 }
 
-bool KdBuilder::too_many_wait(const KdTask& task) const {
-  const std::uint64_t waiting = right_count_ + (in_left_ ? std::uint64_t{task.count} : 0);
-  return waiting + task.count > kWaitingPerTriangle * triangles_.size() + kReferencesOnTop / 4;
+std::uint64_t KdBuilder::waiting_with(const KdTask& task) const {
+  return right_count_ + (in_left_ ? std::uint64_t{task.count} : 0);
 }
 
 void KdBuilder::add_leaf(std::span<const KdReference> references) {
@@ -175,18 +211,31 @@ void KdBuilder::add_leaf(std::span<const KdReference> references) {
   leaf_references_ += references.size();
 }
 
+// Lower references go to the front of `left`. Upper ones go on top of the stack, or over the node's
+// own batch if that is where it lies: no more is ever written than was read before.
 KdBuilder::Counts KdBuilder::partition(const KdTask& task, const KdSplit& split) {
-  // Lower references go to the front of `left`. Upper ones go on top of the stack, or over the
-  // node's own batch if that is where it lies: no more is ever written than was read before.
   if (in_left_) make_room(memory_.right, right_count_ + task.count, memory_.allocations);
-  const KdReference* source = references_in_work(task.count);
+  const KdReference* const source = references_in_work(task.count);
   const std::size_t upper_base = in_left_ ? right_count_ : right_count_ - task.count;
-  KdReference* lower = memory_.left.data();
-  KdReference* upper = memory_.right.data() + upper_base;
+  KdReference* const lower = memory_.left.data();
+  KdReference* const upper = memory_.right.data() + upper_base;
+  const Counts counts = top_ != nullptr
+                            ? top_->partition(*this, task, split, source, lower, upper)
+                            : partition(task, split, source, task.count, lower, upper, meter_);
+  right_count_ = upper_base + counts.upper;
+  memory_.references_classified += task.count;
+  memory_.triangle_box_tests += 2 * counts.straddlers;
+  return counts;
+}
+
+KdBuilder::Counts KdBuilder::partition(const KdTask& task, const KdSplit& split,
+                                       const KdReference* source, std::uint32_t count,
+                                       KdReference* lower, KdReference* upper,
+                                       BuildMeter& meter) const {
   const int axis = split.axis;
-  Counts counts{0, 0};
-  for (std::uint32_t i = 0, end = 0; i < task.count;) {
-    for (end = meter_.part_end(i, task.count); i < end; ++i) {
+  Counts counts;
+  for (std::uint32_t i = 0, end = 0; i < count;) {
+    for (end = meter.part_end(i, count); i < end; ++i) {
       const KdReference reference = source[i];
       const bool below = reference.min[axis] < split.position;
       const bool above = reference.max[axis] > split.position;
@@ -203,15 +252,13 @@ KdBuilder::Counts KdBuilder::partition(const KdTask& task, const KdSplit& split)
       counts.upper += to_lower ? 0 : 1;
     }
   }
-  right_count_ = upper_base + counts.upper;
-  memory_.references_classified += task.count;
   return counts;
 }
 
 void KdBuilder::partition_straddler(const KdReference& reference, const KdTask& task,
                                     const KdSplit& split, KdReference* lower_end,
-                                    KdReference* upper_end, Counts& counts) {
-  memory_.triangle_box_tests += 2;
+                                    KdReference* upper_end, Counts& counts) const {
+  ++counts.straddlers;
   const SplitExtent parts =
       split_extent(triangles_[reference.triangle], task.box, {reference.min, reference.max},
                    split.axis, split.position);

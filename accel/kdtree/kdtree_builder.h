@@ -2,11 +2,13 @@
 
 #include "accel/array.h"
 #include "accel/build_watch.h"
+#include "accel/kdtree/kd_depth.h"
 #include "accel/settings.h"
 #include "scene/bounds.h"
 #include "scene/triangle.h"
 #include "shaders/shared/gpu_types.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,6 +22,11 @@ struct KdReference {
   glm::vec3 max;
   std::uint32_t unused;
 };
+
+inline KdReference kd_reference(std::span<const scene::Triangle> triangles, std::size_t index) {
+  const scene::Bounds bounds = scene::bounds_of(triangles[index]);
+  return {bounds.min, static_cast<std::uint32_t>(index), bounds.max, 0};
+}
 
 /// A node that waits to be built.
 struct KdTask {
@@ -52,9 +59,6 @@ class KdSplitter {
   virtual KdSplit choose(const KdTask& task, std::span<const KdReference> references) = 0;
 };
 
-/// The deepest tree that any settings can ask for; bounds every stack.
-inline constexpr std::uint32_t kKdDepthCap = 60;
-
 /// The limits that end the splitting (thesis 3.2.1), worked out for one scene.
 struct KdLimits {
   std::uint32_t depth;           ///< floor(offset + factor * log(#T)), within 0 .. kKdDepthCap
@@ -80,6 +84,23 @@ struct KdBuildMemory {
   std::uint64_t references_classified = 0;  ///< summed over all nodes split
   std::uint64_t triangle_box_tests = 0;     ///< triangles cut to a child's box
 };
+
+/// The most that a builder ever had to have room for, were every reference of the next node to end
+/// up on both sides; what KdLimits::references is compared with.
+struct KdDemand {
+  std::uint64_t references = 0;  ///< in leaves and waiting
+  std::uint64_t nodes = 0;
+  std::uint64_t waiting = 0;  ///< references
+
+  void include(const KdDemand& other) {
+    references = std::max(references, other.references);
+    nodes = std::max(nodes, other.nodes);
+    waiting = std::max(waiting, other.waiting);
+  }
+  [[nodiscard]] bool within(const KdLimits& limits, std::size_t triangle_count) const;
+};
+
+class KdTop;
 
 /// Builds a kd-tree depth first, lower child first (thesis 3.2.1, iteratively). As there, two
 /// global arrays hold the references of all nodes under construction: `left` is overwritten on the
@@ -110,25 +131,40 @@ class KdBuilder {
   /// after which only another run makes sense of the memory.
   void run(const scene::Bounds& bounds, KdSplitter& splitter);
 
+  /// The same for one branch of a tree, whose references are in memory.left; indices are counted
+  /// from the branch's own. False if it is beyond the limits by itself.
+  bool run_branch(const KdTask& branch, KdSplitter& splitter);
+  /// The same for what is above the branches, which `top` is given: each leaves one node that means
+  /// nothing.
+  bool run_top(const scene::Bounds& bounds, KdSplitter& splitter, KdTop& top);
+  [[nodiscard]] const KdDemand& demand() const { return demand_; }
+
  private:
+  friend class KdTop;
   struct Counts {
-    std::uint32_t lower;
-    std::uint32_t upper;
+    std::uint32_t lower = 0;
+    std::uint32_t upper = 0;
+    std::uint64_t straddlers = 0;
   };
 
-  void start();
-  bool grow(const scene::Bounds& bounds, KdSplitter& splitter);
+  void start(std::size_t count);
+  void fill_left();
+  bool grow(const KdTask& root, KdSplitter& splitter);
+  [[nodiscard]] KdTask whole(const scene::Bounds& bounds) const;
   void finish();
-  [[nodiscard]] bool beyond_limit(const KdTask& task) const;
-  [[nodiscard]] bool too_many_wait(const KdTask& task) const;
+  [[nodiscard]] KdDemand demand_of(const KdTask& task) const;
+  [[nodiscard]] std::uint64_t waiting_with(const KdTask& task) const;
   /// Of the budget: references and nodes so far.
   [[nodiscard]] std::uint64_t spent() const { return leaf_references_ + node_count_; }
   [[nodiscard]] bool must_be_leaf(const KdTask& task) const;
   void add_leaf(std::span<const KdReference> references);
   void report(const KdTask& task, std::span<const KdTask> waiting);
   Counts partition(const KdTask& task, const KdSplit& split);
+  Counts partition(const KdTask& task, const KdSplit& split, const KdReference* source,
+                   std::uint32_t count, KdReference* lower, KdReference* upper,
+                   BuildMeter& meter) const;
   void partition_straddler(const KdReference& reference, const KdTask& task, const KdSplit& split,
-                           KdReference* lower_end, KdReference* upper_end, Counts& counts);
+                           KdReference* lower_end, KdReference* upper_end, Counts& counts) const;
   [[nodiscard]] KdTask child(const KdTask& parent, const KdSplit& split, bool upper,
                              const Counts& counts) const;
   [[nodiscard]] KdReference* references_in_work(std::uint32_t count);
@@ -143,6 +179,8 @@ class KdBuilder {
   std::size_t right_count_ = 0;
   bool in_left_ = true;      ///< where the references of the node in work lie
   bool shared_out_ = false;  ///< whether tasks have budgets
+  KdDemand demand_;
+  KdTop* top_ = nullptr;  ///< who takes branches over, if anybody
 };
 
 }  // namespace encore::accel

@@ -68,10 +68,11 @@ bool PathWorker::draw_tile(const PathJob& job, const CameraFrame& frame, const P
     const std::span<Ray> rays = job.bounces() ? bounces_->camera.rays : rays_;
     camera_rays(frame, tile, sample, rays.first(count));
     if (job.bounces()) {
-      job.needs.shadows ? bounce_sample<true>(job, count) : bounce_sample<false>(job, count);
+      job.needs.shadows ? bounce_sample<true>(job, tile) : bounce_sample<false>(job, tile);
     } else {
-      job.needs.shadows ? cast_sample<true>(job, rays.first(count))
-                        : cast_sample<false>(job, rays.first(count));
+      const auto width = static_cast<std::size_t>(tile.width());
+      job.needs.shadows ? cast_sample<true>(job, rays.first(count), width)
+                        : cast_sample<false>(job, rays.first(count), width);
     }
     if (i == 0) {
       std::copy_n(colors_.begin(), count, sums_.begin());
@@ -86,9 +87,9 @@ bool PathWorker::draw_tile(const PathJob& job, const CameraFrame& frame, const P
 }
 
 template <bool kShadows>
-void PathWorker::cast_sample(const PathJob& job, std::span<const Ray> rays) {
+void PathWorker::cast_sample(const PathJob& job, std::span<const Ray> rays, std::size_t width) {
   const auto hits = std::span(hits_).first(rays.size());
-  job.input.structure->intersect(rays, hits);
+  job.input.structure->intersect_tile(rays, width, hits);
   clock_.count(RayKind::camera, rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!hits[i].found()) continue;
@@ -113,22 +114,24 @@ void PathWorker::shade_batch(const PathJob& job, std::span<const Ray> rays,
 }
 
 template <bool kShadows>
-void PathWorker::bounce_sample(const PathJob& job, std::size_t count) {
+void PathWorker::bounce_sample(const PathJob& job, const PixelRect& tile) {
   Queue& camera = bounces_->camera;
+  const std::size_t count = tile.count();
   camera.count = count;
   for (std::size_t i = 0; i < count; ++i) {
     camera.weights[i] = glm::vec3(1.0F);
     camera.pixels[i] = static_cast<std::uint32_t>(i);
     bounces_->light[i] = glm::vec3(0.0F);
   }
-  trace<kShadows>(job, camera, RayKind::camera, 0);
+  trace<kShadows>(job, camera, static_cast<std::size_t>(tile.width()), RayKind::camera, 0);
   std::copy_n(bounces_->light.begin(), count, colors_.begin());
 }
 
 template <bool kShadows>
-void PathWorker::trace(const PathJob& job, const Queue& batch, RayKind kind, std::size_t depth) {
-  job.input.structure->intersect(std::span<const Ray>(batch.rays).first(batch.count),
-                                 std::span(hits_).first(batch.count));
+void PathWorker::trace(const PathJob& job, const Queue& batch, std::size_t width, RayKind kind,
+                       std::size_t depth) {
+  job.input.structure->intersect_tile(std::span<const Ray>(batch.rays).first(batch.count), width,
+                                      std::span(hits_).first(batch.count));
   clock_.count(kind, batch.count);
   scatter_batch(job, batch, depth);
   const OwnColors& own = bounces_->own;
@@ -146,10 +149,10 @@ void PathWorker::trace(const PathJob& job, const Queue& batch, RayKind kind, std
   // The deeper batches use the scratch space again, and levels further down.
   const Level& next = levels_[depth];
   if (next.reflections.count > 0) {
-    trace<kShadows>(job, next.reflections, RayKind::reflection, depth + 1);
+    trace<kShadows>(job, next.reflections, next.reflections.count, RayKind::reflection, depth + 1);
   }
   if (next.refractions.count > 0) {
-    trace<kShadows>(job, next.refractions, RayKind::refraction, depth + 1);
+    trace<kShadows>(job, next.refractions, next.refractions.count, RayKind::refraction, depth + 1);
   }
 }
 

@@ -83,12 +83,14 @@ class PathWorker {
 
   /// One sample of each of the rays' pixels, into colors_.
   template <bool kShadows>
-  void cast_sample(const PathJob& job, std::span<const scene::Ray> rays);
+  void cast_sample(const PathJob& job, std::span<const scene::Ray> rays, std::size_t width);
   template <bool kShadows>
-  void bounce_sample(const PathJob& job, std::size_t count);
-  /// Adds what a batch brings back, with all that follows from it, to the pixels' light.
+  void bounce_sample(const PathJob& job, const PixelRect& tile);
+  /// Adds what a batch brings back, with all that follows from it, to the pixels' light. `width`:
+  /// of the batch's rays as a rectangle; those of some of a tile's pixels are a row.
   template <bool kShadows>
-  void trace(const PathJob& job, const Queue& batch, scene::RayKind kind, std::size_t depth);
+  void trace(const PathJob& job, const Queue& batch, std::size_t width, scene::RayKind kind,
+             std::size_t depth);
   /// Sees to what a batch's rays have hit: own colours are collected, further rays queued.
   void scatter_batch(const PathJob& job, const Queue& batch, std::size_t depth);
   template <bool kShadows>

@@ -1,5 +1,7 @@
 #include "renderer/paths/shadowed_shading.h"
 
+#include <array>
+#include <cstdint>
 #include <utility>
 
 namespace encore::renderer {
@@ -8,10 +10,25 @@ namespace {
 
 using scene::RayKind;
 
+/// The pixels of a whole tile of 16 x 16, square by square of 8 x 8 and of 4 x 4 within: rays that
+/// follow each other then run side by side, however many of them are left out.
+constexpr std::array<std::uint8_t, kBatchRays> kSquareBySquare = [] {
+  static_assert(kBatchRays == 256);
+  std::array<std::uint8_t, kBatchRays> order{};
+  for (unsigned i = 0; i < kBatchRays; ++i) {
+    const unsigned x = (i >> 6U & 1U) * 8 + (i >> 4U & 1U) * 4 + (i & 3U);
+    const unsigned y = (i >> 7U) * 8 + (i >> 5U & 1U) * 4 + (i >> 2U & 3U);
+    order[i] = static_cast<std::uint8_t>(y * 16 + x);
+  }
+  return order;
+}();
+
 /// Makes the batch's shadow rays towards one light; returns their number.
 std::size_t aim_at(const scene::Light& light, const ShadedBatch& batch, ShadowSpace& space) {
+  const bool whole = batch.rays.size() == kBatchRays;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < batch.rays.size(); ++i) {
+  for (std::size_t k = 0; k < batch.rays.size(); ++k) {
+    const std::size_t i = whole ? kSquareBySquare[k] : k;
     if (!batch.hits[i].found()) continue;
     if (const auto ray = shadow_ray(batch.points[i], light.position)) {
       space.rays[count] = *ray;
@@ -34,7 +51,9 @@ void shade(const ShadingScene& input, const accel::AccelerationStructure& struct
     clock.charge(batch.kind);
     const std::size_t count = aim_at(light, batch, space);
     const auto blocked = std::span(space.blocked).first(count);
-    structure.occluded(std::span<const scene::Ray>(space.rays).first(count), blocked);
+    if (count > 0) {
+      structure.occluded_tile(std::span<const scene::Ray>(space.rays).first(count), count, blocked);
+    }
     clock.count(RayKind::shadow, count);
     clock.charge(RayKind::shadow);
     for (std::size_t k = 0; k < count; ++k) {

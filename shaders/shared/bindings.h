@@ -29,6 +29,13 @@
 #define ENCORE_BINDING_PARENTS 2      // uint[]: of each pair of siblings, the parent's index
 #define ENCORE_BINDING_ARRIVALS 3     // uint[]: of each pair of siblings, who has arrived
 #define ENCORE_BINDING_LEAF_WRITES 4  // uint[]: one bit a node, which leaves are to be written
+#define ENCORE_BINDING_WIDE_PARENTS 4  // uint[]: of each gpu::WideNode, eight times its parent and
+                                       // its place there
+// A build on the device, which ends with a refit, too.
+#define ENCORE_BINDING_BUILD_BOUNDS 4  // int[]: the box of all centres
+#define ENCORE_BINDING_SORT_FROM 5     // uvec2[]: a key and its triangle
+#define ENCORE_BINDING_SORT_TO 6       // the same, sorted by another digit
+#define ENCORE_BINDING_SORT_COUNTS 7   // uint[]: by digit and block
 
 // Uniform buffers.
 #define ENCORE_BINDING_STRUCTURE 0  // gpu::StructureParameters

@@ -42,6 +42,16 @@ struct BvhNode {
   uint count;  // 0: inner node
 };
 
+// One node of a hierarchy with up to eight children (accel/wide/wide_tree.h says what `child` and
+// empty places hold). By axis the lower ends of all children's boxes, then their upper ends with
+// the sign turned: what a ray meets first and last is then computed alike, and one register of 16
+// numbers holds an axis.
+struct WideNode {
+  float bounds[48];  // [axis][lower, -upper][child]
+  uint child[8];
+  uint reserved[8];
+};
+
 // One kd-tree node in 8 bytes (after Pharr and Humphreys 2004). Bits 0..1 of `flags`: the split
 // axis, 3 for a leaf. Bits 2..31: inner node: index of the upper child, the lower child follows
 // its parent directly; leaf: the number of references, which start at `data` taken as an integer.
@@ -120,6 +130,7 @@ static_assert(sizeof(Hit) == 16 && sizeof(Ray) == 32);
 static_assert(sizeof(Material) == 48 && sizeof(Light) == 32);
 static_assert(sizeof(Triangle) == 48 && alignof(Triangle) == 4);
 static_assert(sizeof(BvhNode) == 32);
+static_assert(sizeof(WideNode) == 256 && offsetof(WideNode, child) == 192);
 static_assert(sizeof(KdNode) == 8);
 }  // namespace encore::gpu
 #endif

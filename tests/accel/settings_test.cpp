@@ -22,6 +22,20 @@ TEST(Settings, NamesRoundTrip) {
   EXPECT_FALSE(parse_policy("").has_value());
 }
 
+TEST(Settings, PresetsAndGroupingsRoundTrip) {
+  for (const BuildPreset preset : {BuildPreset::fast, BuildPreset::balanced, BuildPreset::best}) {
+    EXPECT_EQ(parse_build_preset(to_string(preset)), preset);
+    StructureSpec spec = default_spec(StructureKind::bvh_sah);
+    EXPECT_EQ(apply_setting(spec, "bvh.preset", to_string(preset)), "");
+    EXPECT_EQ(std::get<BvhSettings>(spec.settings).preset, preset);
+  }
+  for (const RayGrouping grouping : {RayGrouping::packets, RayGrouping::single}) {
+    EXPECT_EQ(parse_ray_grouping(to_string(grouping)), grouping);
+  }
+  EXPECT_FALSE(parse_build_preset("slow").has_value());
+  EXPECT_FALSE(parse_ray_grouping("").has_value());
+}
+
 TEST(Settings, DefaultsAreTheThesis) {
   const auto kd = std::get<KdTreeSettings>(default_spec(StructureKind::kd_sah).settings);
   EXPECT_EQ(kd.depth_offset, 11.0F);

@@ -60,7 +60,7 @@ TEST(GpuVerification, AnHonestDevicePassesWithNothingToExplain) {
   }
   LyingTracer device;
   const auto rows = verify("mug", device, specs);
-  ASSERT_EQ(rows.size(), 5U);
+  ASSERT_EQ(rows.size(), 6U);
   for (const DeviceRow& row : rows) {
     EXPECT_TRUE(row.passed()) << row.structure;
     EXPECT_EQ(row.action, "build");

@@ -173,6 +173,21 @@ TEST_F(GpuDeepTrees, ABvhOfHundredsOfLevelsIsWalkedToItsEnd) {
   }
 }
 
+TEST_F(GpuDeepTrees, AWideTreeOfManyLevelsIsWalkedToItsEndInEveryPreset) {
+  for (const auto preset :
+       {accel::BuildPreset::fast, accel::BuildPreset::balanced, accel::BuildPreset::best}) {
+    const auto setup = scene_of(
+        accel::test::one_a_level(500),
+        {.kind = StructureKind::bvh_sah, .settings = accel::BvhSettings{.preset = preset}});
+    GpuTracer tracer(context_);
+    tracer.init(setup->input());
+    for (const accel::RayKind kind : accel::all_ray_kinds()) {
+      const auto rays = accel::test_rays(kind, 300, 8, setup->list.triangles, *setup->structure);
+      expect_structure_hits(tracer, *setup->structure, rays, std::string(accel::to_string(kind)));
+    }
+  }
+}
+
 TEST_F(GpuDeepTrees, AKdTreeDeeperThanThirtyTwoIsWalkedToItsEnd) {
   for (const StructureKind kind : {StructureKind::kd_median, StructureKind::kd_sah}) {
     accel::KdTreeSettings settings;

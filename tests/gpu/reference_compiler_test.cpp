@@ -46,7 +46,7 @@ TEST_F(ReferenceCompiler, NoticesWhatIsNoGlsl) {
 
 TEST_F(ReferenceCompiler, AcceptsEveryWayToTrace) {
   for (const auto kind : {accel::StructureKind::grid_box, accel::StructureKind::kd_sah,
-                          accel::StructureKind::bvh_median}) {
+                          accel::StructureKind::bvh_median, accel::StructureKind::bvh_sah}) {
     for (const auto output :
          {TraceOutput::picture, TraceOutput::hits, TraceOutput::counters, TraceOutput::ray_hits,
           TraceOutput::path_hits, TraceOutput::shadows}) {
@@ -141,13 +141,17 @@ TEST_F(ReferenceCompiler, SeesNothingOfWhatPlainScenesDoNotNeed) {
   EXPECT_EQ(plain.find("sample_offset"), std::string::npos);
 }
 
-TEST_F(ReferenceCompiler, AcceptsEveryWayToRefit) {
+TEST_F(ReferenceCompiler, AcceptsEveryWayToRefitAndBuild) {
   for (const char* update_case : {"ENCORE_UPDATE_REAL", "ENCORE_UPDATE_BEST",
                                   "ENCORE_UPDATE_AVERAGE", "ENCORE_UPDATE_WORST"}) {
     EXPECT_EQ(complaints("refit.comp", "comp", {update_case, "ENCORE_GROUP_SIZE 128"}), "")
         << update_case;
   }
-  EXPECT_EQ(complaints("link_parents.comp", "comp", {"ENCORE_GROUP_SIZE 128"}), "");
+  for (const char* file : {"link_parents.comp", "link_wide.comp", "refit_wide.comp",
+                           "build_bounds.comp", "build_keys.comp", "build_tree.comp",
+                           "sort_count.comp", "sort_scan.comp", "sort_scatter.comp"}) {
+    EXPECT_EQ(complaints(file, "comp", {"ENCORE_GROUP_SIZE 128"}), "") << file;
+  }
 }
 
 TEST_F(ReferenceCompiler, AcceptsEveryWayToDrawAnOverlay) {

@@ -33,6 +33,8 @@ Defines defines_of(const TraceVariant& variant) {
 TEST(TraceDefines, APlainSceneHasNoFeaturesOfShading) {
   EXPECT_EQ(defines_of({.kind = StructureKind::bvh_median, .depth = 5}),
             (Defines{"ENCORE_TRAVERSE_BVH", "ENCORE_STACK_SIZE 16", "ENCORE_OUTPUT_PICTURE"}));
+  EXPECT_EQ(defines_of({.kind = StructureKind::bvh_sah, .depth = 16}),
+            (Defines{"ENCORE_TRAVERSE_WIDE", "ENCORE_STACK_SIZE 32", "ENCORE_OUTPUT_PICTURE"}));
 }
 
 TEST(TraceDefines, EachFeatureAddsItsOwnOnly) {
@@ -138,6 +140,8 @@ TEST(TraceDefines, RaysPauseOnlyWhereTheyAreToldTo) {
             10 + 2 * stack);
   EXPECT_EQ(renderer::paused_ray_words({.kind = StructureKind::kd_sah, .depth = 40}),
             11 + 3 * stack);
+  EXPECT_EQ(renderer::paused_ray_words({.kind = StructureKind::bvh_sah, .depth = 40}),
+            10 + 2 * stack);
 }
 
 TEST(TraceDefines, TheStackHoldsOneMoreThanTheDepthInSteps) {

@@ -59,7 +59,7 @@ TEST(SoakLegs, AreTheWholeProductOnceInTheSeedsOrder) {
   }
   EXPECT_EQ(different.size(), legs.size());
   EXPECT_GE(scenes.size(), 4U);
-  const std::size_t traced = 5U * 4U * 3U * 3U * 2U;
+  const std::size_t traced = 6U * 4U * 3U * 3U * 2U;
   EXPECT_EQ(legs.size(), scenes.size() * (traced + 3U));
   EXPECT_EQ(describe(all_legs(true, 1).front()), describe(legs.front()));
   EXPECT_NE(describe(all_legs(true, 2).front()), describe(legs.front()));

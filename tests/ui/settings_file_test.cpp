@@ -31,7 +31,9 @@ KeptState unusual() {
   left.custom_height = 222;
   left.threads = 3;
   ui::PaneSettings& right = kept.settings.panes[1];
-  right.structure.settings = accel::BvhSettings{accel::UpdateCase::worst, ~std::uint64_t{0}};
+  right.structure.settings =
+      accel::BvhSettings{accel::BuildPreset::best, accel::UpdateCase::worst, ~std::uint64_t{0}};
+  right.structure.grouping = accel::RayGrouping::single;
   right.structure.intersection = accel::IntersectionMode::watertight;
   kept.settings.rays = {true, true, true, false, 7, 64, 0xFFFFFFFFU};
   kept.settings.overlay = {true,

@@ -160,6 +160,8 @@ void Soak::go_on(const Leg& leg, Frame& frame) {
 void Soak::check_hits(const Leg& leg, Frame& frame) {
   const auto& triangles = frame.live.list.triangles;
   const std::uint64_t seed = check_seed_++;
+  // It holds corners of its own: while it is outdated it sees triangles where they were.
+  if (frame.outdated && leg.structure == accel::StructureKind::bvh_sah) return;
   const auto most = static_cast<std::size_t>(plan_.size);
   const std::size_t count = std::min(plan_.checked_rays / 2, most);
   std::vector<scene::Ray> rays(count);

@@ -18,7 +18,7 @@
 #define ENCORE_NOT_THREAD_SANITIZED
 #endif
 
-namespace encore::renderer {
+namespace encore::accel {
 
 /// Tells the thread sanitizer how work passes from one thread to others and back through oneTBB,
 /// whose library is not built with it. Says nothing of one task's work to another, so races between
@@ -50,4 +50,4 @@ class TaskHandover {
 #endif
 };
 
-}  // namespace encore::renderer
+}  // namespace encore::accel

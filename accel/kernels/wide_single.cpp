@@ -1,0 +1,195 @@
+// bvh-sah, each ray on its own way: several are under way at once, so that the memory and
+// arithmetic of one is waited for while others go on.
+#include "accel/kernels/block_testers.h"
+#include "accel/kernels/child_order.h"
+#include "accel/kernels/exact_hit.h"
+#include "accel/kernels/slab_ray.h"
+#include "accel/wide/wide_kernels.h"
+
+namespace encore::accel::ENCORE_ISA {
+
+namespace {
+
+/// A ray under way.
+template <class Blocks>
+struct alignas(64) TracedRay {
+  SlabRay slabs;
+  Blocks blocks;
+  std::uint32_t child;  ///< where it is
+  std::uint32_t ray;
+  std::uint32_t top;  ///< how many nodes wait
+  // Nodes that wait, and where the ray enters their boxes: the first stands for the end; at the end
+  // is room for what push_in_order() overwrites.
+  std::uint32_t places[WideTree::kStackSize + 9];
+  float enters[WideTree::kStackSize + 9];
+};
+
+[[gnu::always_inline]] inline void write(const BestHit& hit, scene::Hit& to) {
+  to.t = hit.t;
+  to.triangle = hit.triangle;
+  to.u = hit.u;
+  to.v = hit.v;
+}
+
+/// Rounds of all the rays that are under way, in passes that hardly branch: what is unforeseeable
+/// about a ray is which list it comes to stand in.
+template <bool AnyHit, class Blocks, class Answer>
+class Stream {
+  using Traveller = TracedRay<Blocks>;
+
+ public:
+  static constexpr std::uint32_t kTogether = 32;
+
+  [[gnu::always_inline]] Stream(const WideView& tree, const scene::Triangle* triangles,
+                                const scene::Ray* rays, std::size_t count, Answer* answers)
+      : tree_(tree), triangles_(triangles), rays_(rays), count_(count), answers_(answers) {}
+
+  [[gnu::always_inline]] void run() {
+    if (tree_.node_count == 0) {
+      for (std::size_t i = 0; i < count_; ++i) answer(i, miss(rays_[i]));
+      return;
+    }
+    for (Traveller& t : travellers_) {
+      t.enters[0] = -__builtin_inff();
+      t.places[0] = WideChild::kNoChild;
+      start(&t);
+    }
+    while ((length_[kNode] | length_[kLeaf]) != 0) round();
+  }
+
+ private:
+  enum List : std::uint32_t { kNode, kLeaf, kEnd };
+
+  [[gnu::always_inline]] void round() {
+    const std::uint32_t nodes = length_[kNode];
+    for (std::uint32_t i = 0; i < nodes; ++i) visit(*list_[kNode][i]);
+    const std::uint32_t leaves = length_[kLeaf];
+    std::uint32_t candidates = 0;
+    for (std::uint32_t i = 0; i < leaves; ++i) {
+      Traveller* const t = list_[kLeaf][i];
+      candidate_[candidates] = t;
+      candidates += t->blocks.look(tree_.blocks[WideChild::first_block(t->child)]) ? 1 : 0;
+      // The leaf's other blocks wait like a node that the ray is in already.
+      t->enters[t->top] = -__builtin_inff();
+      t->places[t->top] = WideChild::next_block(t->child);
+      t->top += WideChild::blocks(t->child) > 1 ? 1 : 0;
+    }
+    for (std::uint32_t i = 0; i < candidates; ++i) judge(*candidate_[i]);
+    length_[kNode] = length_[kLeaf] = length_[kEnd] = 0;
+    // No ray has left its list before what stood in its place was read.
+    for (std::uint32_t i = 0; i < leaves; ++i) candidate_[i] = list_[kLeaf][i];
+    for (std::uint32_t i = 0; i < nodes; ++i) go_on(list_[kNode][i]);
+    for (std::uint32_t i = 0; i < leaves; ++i) go_on(candidate_[i]);
+    for (std::uint32_t i = 0; i < length_[kEnd]; ++i) {
+      Traveller* const t = list_[kEnd][i];
+      answer(t->ray, t->blocks.hit);
+      start(t);
+    }
+  }
+
+  [[gnu::always_inline]] void visit(Traveller& t) {
+    const gpu::WideNode& node = tree_.nodes[t.child];
+    Floats<8> enter;
+    const Mask<8> met = t.slabs.test(node, enter);
+    if constexpr (AnyHit) {
+      t.top += push_unordered(met, node.child, t.places + t.top);
+    } else {
+      t.top += push_in_order(enter, met, node.child, t.enters + t.top, t.places + t.top);
+    }
+  }
+
+  [[gnu::always_inline]] void judge(Traveller& t) {
+    const std::uint32_t block = WideChild::first_block(t.child);
+    if (!t.blocks.judge(tree_.blocks[block], tree_.ids + TriangleBlock::kSize * block)) return;
+    if constexpr (AnyHit) {
+      t.top = 1;
+    } else {
+      t.slabs.set_limit(t.blocks.limit());
+    }
+  }
+
+  /// To the nearest node that waits and is not behind the best hit.
+  [[gnu::always_inline]] void go_on(Traveller* t) {
+    std::uint32_t top = t->top;
+    do --top;
+    while (!AnyHit && t->enters[top] > t->slabs.limit());
+    t->top = top;
+    t->child = t->places[top];
+    const std::uint32_t list =
+        t->child == WideChild::kNoChild ? std::uint32_t{kEnd} : t->child >> 31U;
+    list_[list][length_[list]++] = t;
+  }
+
+  /// Gives the next ray to a place that has none.
+  [[gnu::always_inline]] void start(Traveller* t) {
+    while (next_ < count_) {
+      const std::size_t i = next_++;
+      const scene::Ray& ray = rays_[i];
+      if (!t->slabs.prepare(ray)) [[unlikely]] {
+        answer(i, miss(ray));
+        continue;
+      }
+      t->blocks.start(ray, triangles_);
+      t->slabs.set_limit(t->blocks.limit());
+      t->ray = static_cast<std::uint32_t>(i);
+      t->top = 1;
+      t->child = 0;
+      list_[kNode][length_[kNode]++] = t;
+      return;
+    }
+  }
+
+  [[gnu::always_inline]] void answer(std::size_t ray, const BestHit& hit) {
+    if constexpr (AnyHit) {
+      answers_[ray] = hit.triangle != scene::kNoHit ? 1 : 0;
+    } else {
+      write(hit, answers_[ray]);
+    }
+  }
+
+  const WideView& tree_;
+  const scene::Triangle* triangles_;
+  const scene::Ray* rays_;
+  std::size_t count_;
+  std::size_t next_ = 0;
+  Answer* answers_;
+  std::uint32_t length_[3] = {0, 0, 0};
+  Traveller* list_[3][kTogether];
+  Traveller* candidate_[kTogether];
+  Traveller travellers_[kTogether];
+};
+
+template <class Blocks>
+void intersect(const WideView& tree, const scene::Triangle* triangles, const scene::Ray* rays,
+               std::size_t count, scene::Hit* hits) {
+  Stream<false, Blocks, scene::Hit>(tree, triangles, rays, count, hits).run();
+  if (!Blocks::kNeedsFinish) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (hits[i].triangle == scene::kNoHit) continue;
+    const std::uint32_t index = hits[i].triangle;
+    if (exact_hit(rays[i], triangles[index], index, hits[i])) continue;
+    BestHit hit = miss(rays[i]);
+    decide_precisely(rays[i], triangles, index, hit);
+    write(hit, hits[i]);
+  }
+}
+
+template <class Blocks>
+void occluded(const WideView& tree, const scene::Triangle* triangles, const scene::Ray* rays,
+              std::size_t count, std::uint8_t* blocked) {
+  Stream<true, Blocks, std::uint8_t>(tree, triangles, rays, count, blocked).run();
+}
+
+}  // namespace
+
+const WideSingleKernels& single_kernels();
+
+const WideSingleKernels& single_kernels() {
+  // The precise mode's and the watertight one's any-hit answers are the same.
+  static constexpr WideSingleKernels kernels{
+      {intersect<PreciseBlocks>, intersect<MollerTrumboreBlocks>, intersect<WatertightBlocks>},
+      {occluded<WatertightBlocks>, occluded<MollerTrumboreBlocks>, occluded<WatertightBlocks>}};
+  return kernels;
+}
+
+}  // namespace encore::accel::ENCORE_ISA

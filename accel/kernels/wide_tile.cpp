@@ -1,0 +1,129 @@
+// bvh-sah, rectangles of rays in packets of 64.
+#include "accel/kernels/wide_tile_exact.h"
+#include "accel/kernels/wide_tile_trace.h"
+#include "accel/wide/wide_kernels.h"
+
+namespace encore::accel::ENCORE_ISA {
+
+const WideSingleKernels& single_kernels();
+const WideTileKernels& tile_kernels();
+
+namespace {
+
+/// Whether TriangleFilter's error bound holds for the directions as they are, and is sharp.
+bool filterable(const RayPacket& packet, const PacketFrustums& frustums) {
+  using F = Floats<kLanes>;
+  F greatest = F::all(0.0F), least = F::all(1.0F);
+  for (int i = 0; i < kPacketRays; i += kLanes) {
+    greatest = max(greatest, largest(Points<kLanes>::load(packet.direction[0] + i, kPacketRays)));
+    least = min(least, F::load(frustums.along + i));
+  }
+  return greatest_of(greatest) < 2.0F && least_of(least) > 0x1p-6F;
+}
+
+template <class Tester, bool kAnyHit>
+bool trace_packet(const TraceScene& scene, RayPacket& packet) {
+  PacketFrustums frustums;
+  if (!frustums.set(packet)) return false;
+  if (Tester::kFilter && !filterable(packet, frustums)) return false;
+  return frustums.common_origin
+             ? PacketTrace<Tester, kAnyHit, true>(scene, packet, frustums).run()
+             : PacketTrace<Tester, kAnyHit, false>(scene, packet, frustums).run();
+}
+
+/// What a packet covers of a rectangle.
+struct Block {
+  std::size_t first, width;
+  std::uint32_t columns, rows;
+};
+
+/// Calls work(Block, place) for all packets of a rectangle.
+template <class Work>
+[[gnu::always_inline]] inline void for_packets(std::size_t width, std::size_t height,
+                                               RayPacket& packet, const Work& work) {
+  std::uint32_t columns = 8;
+  while (columns > 1 && columns / 2 >= width) columns /= 2;
+  while (columns < kPacketRays && kPacketRays / columns / 2 >= height) columns *= 2;
+  const std::uint32_t rows = kPacketRays / columns;
+  std::uint32_t set_columns = 0, set_rows = 0;
+  for (std::size_t y = 0; y < height; y += rows) {
+    const auto has_rows = static_cast<std::uint32_t>(height - y < rows ? height - y : rows);
+    for (std::size_t x = 0; x < width; x += columns) {
+      const auto has_columns =
+          static_cast<std::uint32_t>(width - x < columns ? width - x : columns);
+      if (has_rows != set_rows || has_columns != set_columns) {
+        set_places(width, columns, has_columns, has_rows, packet.place);
+        set_rows = has_rows;
+        set_columns = has_columns;
+      }
+      work(Block{y * width + x, width, has_columns, has_rows});
+    }
+  }
+}
+
+/// How a mode finds hits and what it then tells of them.
+struct MollerTrumborePlan {
+  using Tester = MollerTrumborePackets;
+  static void finish(const TraceScene& /*scene*/, RayPacket& /*packet*/) {}
+};
+struct PrecisePlan {
+  using Tester = DoubtingPackets;
+  static void finish(const TraceScene& scene, RayPacket& packet) { settle_precise(scene, packet); }
+};
+struct WatertightPlan {
+  using Tester = DoubtingPackets;
+  static void finish(const TraceScene& scene, RayPacket& packet) {
+    settle_watertight(scene, packet);
+  }
+};
+
+template <class Plan, int kMode>
+void intersect(const WideView& tree, const scene::Triangle* triangles, const scene::Ray* rays,
+               std::size_t width, std::size_t height, scene::Hit* hits) {
+  const auto single = single_kernels().intersect[kMode];
+  if (tree.node_count == 0) return single(tree, triangles, rays, width * height, hits);
+  RayPacket packet;
+  for_packets(width, height, packet, [&](const Block& block) {
+    const TraceScene scene{tree, triangles, rays + block.first};
+    load_rays(scene.rays, packet);
+    if (trace_packet<typename Plan::Tester, false>(scene, packet)) {
+      Plan::finish(scene, packet);
+      return store_hits(packet, hits + block.first);
+    }
+    for (std::size_t row = 0; row < block.rows; ++row) {
+      const std::size_t first = block.first + row * block.width;
+      single(tree, triangles, rays + first, block.columns, hits + first);
+    }
+  });
+}
+
+template <class Tester, int kMode>
+void occluded(const WideView& tree, const scene::Triangle* triangles, const scene::Ray* rays,
+              std::size_t width, std::size_t height, std::uint8_t* blocked) {
+  const auto single = single_kernels().occluded[kMode];
+  if (tree.node_count == 0) return single(tree, triangles, rays, width * height, blocked);
+  RayPacket packet;
+  for_packets(width, height, packet, [&](const Block& block) {
+    const TraceScene scene{tree, triangles, rays + block.first};
+    load_rays(scene.rays, packet);
+    if (trace_packet<Tester, true>(scene, packet)) {
+      return store_blocked(packet, blocked + block.first);
+    }
+    for (std::size_t row = 0; row < block.rows; ++row) {
+      const std::size_t first = block.first + row * block.width;
+      single(tree, triangles, rays + first, block.columns, blocked + first);
+    }
+  });
+}
+
+}  // namespace
+
+const WideTileKernels& tile_kernels() {
+  static constexpr WideTileKernels kernels{
+      {intersect<PrecisePlan, 0>, intersect<MollerTrumborePlan, 1>, intersect<WatertightPlan, 2>},
+      {occluded<DoubtingPackets, 0>, occluded<MollerTrumborePackets, 1>,
+       occluded<DoubtingPackets, 2>}};
+  return kernels;
+}
+
+}  // namespace encore::accel::ENCORE_ISA

@@ -1,0 +1,360 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE4_2__)
+// GCC 12 takes the registers that its own intrinsics leave undefined for mistakes.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include <immintrin.h>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+#endif
+
+#if !defined(ENCORE_ISA)
+#error "only for files that are compiled once an instruction set (encore_isa_sources in CMake)"
+#endif
+
+/// Everything that is compiled once an instruction set lies in a namespace of its own: a function
+/// of the same name that two of them brought along would be linked from either, and with it
+/// instructions that the processor may not have.
+namespace encore::accel::ENCORE_ISA {
+
+/// N floats side by side, N = 4, 8 or 16, in registers of the instruction set that the file is
+/// compiled for; in two halves where those are narrower. Every operation rounds as the scalar one
+/// does, nothing is ever fused, so results are the same for every instruction set.
+///
+/// min(a, b) and max(a, b) return `b` where either is NaN. Lanes that hold integers may ride along
+/// through load, store, select and all_bits, but not through arithmetic.
+template <int N>
+struct Floats;
+/// N truths. bits(): bit i is lane i.
+template <int N>
+struct Mask;
+
+#if defined(__AVX512VL__) && defined(__AVX512DQ__)
+#define ENCORE_AVX512 1
+#endif
+
+// ---------------------------------------------------------------------------------------- masks
+
+#if defined(ENCORE_AVX512)
+template <int N>
+struct Mask {
+  unsigned m;
+  [[nodiscard]] unsigned bits() const { return m; }
+  static Mask of_bits(unsigned bits) { return {bits & ((1U << N) - 1U)}; }
+  friend Mask operator&(Mask a, Mask b) { return {a.m & b.m}; }
+  friend Mask operator|(Mask a, Mask b) { return {a.m | b.m}; }
+  /// a and not b
+  friend Mask without(Mask a, Mask b) { return {a.m & ~b.m}; }
+};
+#elif defined(__SSE4_2__)
+template <>
+struct Mask<4> {
+  __m128 m;
+  [[nodiscard]] unsigned bits() const { return static_cast<unsigned>(_mm_movemask_ps(m)); }
+  static Mask of_bits(unsigned bits) {
+    const __m128i lanes = _mm_setr_epi32(1, 2, 4, 8);
+    const __m128i set = _mm_and_si128(_mm_set1_epi32(static_cast<int>(bits)), lanes);
+    return {_mm_castsi128_ps(_mm_cmpeq_epi32(set, lanes))};
+  }
+  friend Mask operator&(Mask a, Mask b) { return {_mm_and_ps(a.m, b.m)}; }
+  friend Mask operator|(Mask a, Mask b) { return {_mm_or_ps(a.m, b.m)}; }
+  friend Mask without(Mask a, Mask b) { return {_mm_andnot_ps(b.m, a.m)}; }
+};
+#else
+template <>
+struct Mask<4> {
+  unsigned m;
+  [[nodiscard]] unsigned bits() const { return m; }
+  static Mask of_bits(unsigned bits) { return {bits & 0xFU}; }
+  friend Mask operator&(Mask a, Mask b) { return {a.m & b.m}; }
+  friend Mask operator|(Mask a, Mask b) { return {a.m | b.m}; }
+  friend Mask without(Mask a, Mask b) { return {a.m & ~b.m}; }
+};
+#endif
+
+#if !defined(ENCORE_AVX512)
+#if defined(__AVX2__)
+template <>
+struct Mask<8> {
+  __m256 m;
+  [[nodiscard]] unsigned bits() const { return static_cast<unsigned>(_mm256_movemask_ps(m)); }
+  static Mask of_bits(unsigned bits) {
+    const __m256i lanes = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), lanes);
+    return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, lanes))};
+  }
+  friend Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.m, b.m)}; }
+  friend Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.m, b.m)}; }
+  friend Mask without(Mask a, Mask b) { return {_mm256_andnot_ps(b.m, a.m)}; }
+};
+#endif
+
+template <int N>
+struct Mask {
+  Mask<N / 2> low, high;
+  [[nodiscard]] unsigned bits() const { return low.bits() | high.bits() << (N / 2); }
+  static Mask of_bits(unsigned bits) {
+    return {Mask<N / 2>::of_bits(bits), Mask<N / 2>::of_bits(bits >> (N / 2))};
+  }
+  friend Mask operator&(const Mask& a, const Mask& b) { return {a.low & b.low, a.high & b.high}; }
+  friend Mask operator|(const Mask& a, const Mask& b) { return {a.low | b.low, a.high | b.high}; }
+  friend Mask without(const Mask& a, const Mask& b) {
+    return {without(a.low, b.low), without(a.high, b.high)};
+  }
+};
+#endif
+
+// ---------------------------------------------------------------------------------------- floats
+
+#if defined(__SSE4_2__)
+
+// The operations of one register width; the three differ in nothing but the names.
+#define ENCORE_FLOATS_ARITHMETIC(N, REGISTER, PREFIX)            \
+  REGISTER v;                                                    \
+  static Floats load(const void* from) {                         \
+    return {PREFIX##_loadu_ps(static_cast<const float*>(from))}; \
+  }                                                              \
+  void store(void* to) const {                                   \
+    PREFIX##_storeu_ps(static_cast<float*>(to), v);              \
+  }                                                              \
+  static Floats all(float x) {                                   \
+    return {PREFIX##_set1_ps(x)};                                \
+  }                                                              \
+  static Floats all_bits(std::uint32_t x) {                      \
+    return all(__builtin_bit_cast(float, x));                    \
+  }                                                              \
+  friend Floats operator+(Floats a, Floats b) {                  \
+    return {PREFIX##_add_ps(a.v, b.v)};                          \
+  }                                                              \
+  friend Floats operator-(Floats a, Floats b) {                  \
+    return {PREFIX##_sub_ps(a.v, b.v)};                          \
+  }                                                              \
+  friend Floats operator*(Floats a, Floats b) {                  \
+    return {PREFIX##_mul_ps(a.v, b.v)};                          \
+  }                                                              \
+  friend Floats operator/(Floats a, Floats b) {                  \
+    return {PREFIX##_div_ps(a.v, b.v)};                          \
+  }                                                              \
+  friend Floats min(Floats a, Floats b) {                        \
+    return {PREFIX##_min_ps(a.v, b.v)};                          \
+  }                                                              \
+  friend Floats max(Floats a, Floats b) {                        \
+    return {PREFIX##_max_ps(a.v, b.v)};                          \
+  }                                                              \
+  friend Floats operator&(Floats a, Floats b) {                  \
+    return {PREFIX##_and_ps(a.v, b.v)};                          \
+  }                                                              \
+  friend Floats operator^(Floats a, Floats b) {                  \
+    return {PREFIX##_xor_ps(a.v, b.v)};                          \
+  }                                                              \
+  friend Floats operator|(Floats a, Floats b) {                  \
+    return {PREFIX##_or_ps(a.v, b.v)};                           \
+  }                                                              \
+  friend Floats abs(Floats a) {                                  \
+    return {PREFIX##_andnot_ps(all(-0.0F).v, a.v)};              \
+  }
+
+#if defined(ENCORE_AVX512)
+#define ENCORE_FLOATS_COMPARISONS(N, PREFIX)             \
+  friend Mask<N> operator<(Floats a, Floats b) {         \
+    return {PREFIX##_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; \
+  }                                                      \
+  friend Mask<N> operator<=(Floats a, Floats b) {        \
+    return {PREFIX##_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ)}; \
+  }                                                      \
+  friend Mask<N> operator>(Floats a, Floats b) {         \
+    return b < a;                                        \
+  }                                                      \
+  friend Mask<N> operator>=(Floats a, Floats b) {        \
+    return b <= a;                                       \
+  }                                                      \
+  friend Mask<N> operator==(Floats a, Floats b) {        \
+    return {PREFIX##_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; \
+  }
+#define ENCORE_SELECT(N, PREFIX, MASK)                                 \
+  friend Floats select(Mask<N> m, Floats a, Floats b) {                \
+    return {PREFIX##_mask_blend_ps(static_cast<MASK>(m.m), b.v, a.v)}; \
+  }
+template <>
+struct Floats<4> {
+  ENCORE_FLOATS_ARITHMETIC(4, __m128, _mm)
+  ENCORE_FLOATS_COMPARISONS(4, _mm)
+  ENCORE_SELECT(4, _mm, __mmask8)
+};
+template <>
+struct Floats<8> {
+  ENCORE_FLOATS_ARITHMETIC(8, __m256, _mm256)
+  ENCORE_FLOATS_COMPARISONS(8, _mm256)
+  ENCORE_SELECT(8, _mm256, __mmask8)
+};
+template <>
+struct Floats<16> {
+  ENCORE_FLOATS_ARITHMETIC(16, __m512, _mm512)
+  ENCORE_FLOATS_COMPARISONS(16, _mm512)
+  ENCORE_SELECT(16, _mm512, __mmask16)
+};
+#else
+template <>
+struct Floats<4> {
+  ENCORE_FLOATS_ARITHMETIC(4, __m128, _mm)
+  friend Mask<4> operator<(Floats a, Floats b) { return {_mm_cmplt_ps(a.v, b.v)}; }
+  friend Mask<4> operator<=(Floats a, Floats b) { return {_mm_cmple_ps(a.v, b.v)}; }
+  friend Mask<4> operator>(Floats a, Floats b) { return b < a; }
+  friend Mask<4> operator>=(Floats a, Floats b) { return b <= a; }
+  friend Mask<4> operator==(Floats a, Floats b) { return {_mm_cmpeq_ps(a.v, b.v)}; }
+  /// a where m, else b
+  friend Floats select(Mask<4> m, Floats a, Floats b) { return {_mm_blendv_ps(b.v, a.v, m.m)}; }
+};
+#if defined(__AVX2__)
+template <>
+struct Floats<8> {
+  ENCORE_FLOATS_ARITHMETIC(8, __m256, _mm256)
+  friend Mask<8> operator<(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+  friend Mask<8> operator<=(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)}; }
+  friend Mask<8> operator>(Floats a, Floats b) { return b < a; }
+  friend Mask<8> operator>=(Floats a, Floats b) { return b <= a; }
+  friend Mask<8> operator==(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
+  friend Floats select(Mask<8> m, Floats a, Floats b) { return {_mm256_blendv_ps(b.v, a.v, m.m)}; }
+};
+#endif
+#endif
+
+#else  // no SSE4.2: plain C++
+template <>
+struct Floats<4> {
+  float lane[4];
+  static Floats load(const void* from) {
+    Floats r;
+    std::memcpy(r.lane, from, sizeof r.lane);
+    return r;
+  }
+  void store(void* to) const { std::memcpy(to, lane, sizeof lane); }
+  static Floats all(float x) { return {{x, x, x, x}}; }
+  static Floats all_bits(std::uint32_t x) { return all(__builtin_bit_cast(float, x)); }
+  friend Floats operator+(const Floats& a, const Floats& b) {
+    return each(a, b, [](float x, float y) { return x + y; });
+  }
+  friend Floats operator-(const Floats& a, const Floats& b) {
+    return each(a, b, [](float x, float y) { return x - y; });
+  }
+  friend Floats operator*(const Floats& a, const Floats& b) {
+    return each(a, b, [](float x, float y) { return x * y; });
+  }
+  friend Floats operator/(const Floats& a, const Floats& b) {
+    return each(a, b, [](float x, float y) { return x / y; });
+  }
+  friend Floats min(const Floats& a, const Floats& b) {
+    return each(a, b, [](float x, float y) { return x < y ? x : y; });
+  }
+  friend Floats max(const Floats& a, const Floats& b) {
+    return each(a, b, [](float x, float y) { return x > y ? x : y; });
+  }
+  friend Floats operator&(const Floats& a, const Floats& b) {
+    return each_bits(a, b, [](std::uint32_t x, std::uint32_t y) { return x & y; });
+  }
+  friend Floats operator|(const Floats& a, const Floats& b) {
+    return each_bits(a, b, [](std::uint32_t x, std::uint32_t y) { return x | y; });
+  }
+  friend Floats operator^(const Floats& a, const Floats& b) {
+    return each_bits(a, b, [](std::uint32_t x, std::uint32_t y) { return x ^ y; });
+  }
+  friend Floats abs(const Floats& a) { return a & all_bits(0x7FFFFFFFU); }
+  friend Mask<4> operator<(const Floats& a, const Floats& b) {
+    return ask(a, b, [](float x, float y) { return x < y; });
+  }
+  friend Mask<4> operator<=(const Floats& a, const Floats& b) {
+    return ask(a, b, [](float x, float y) { return x <= y; });
+  }
+  friend Mask<4> operator>(const Floats& a, const Floats& b) { return b < a; }
+  friend Mask<4> operator>=(const Floats& a, const Floats& b) { return b <= a; }
+  friend Mask<4> operator==(const Floats& a, const Floats& b) {
+    return ask(a, b, [](float x, float y) { return x == y; });
+  }
+  friend Floats select(const Mask<4>& m, const Floats& a, const Floats& b) {
+    Floats r = b;
+    for (unsigned i = 0; i < 4; ++i) {
+      if ((m.m >> i & 1U) != 0) r.lane[i] = a.lane[i];
+    }
+    return r;
+  }
+
+ private:
+  template <class F>
+  static Floats each(const Floats& a, const Floats& b, F f) {
+    return {{f(a.lane[0], b.lane[0]), f(a.lane[1], b.lane[1]), f(a.lane[2], b.lane[2]),
+             f(a.lane[3], b.lane[3])}};
+  }
+  template <class F>
+  static Floats each_bits(const Floats& a, const Floats& b, F f) {
+    return each(a, b, [f](float x, float y) {
+      return __builtin_bit_cast(
+          float, f(__builtin_bit_cast(std::uint32_t, x), __builtin_bit_cast(std::uint32_t, y)));
+    });
+  }
+  template <class F>
+  static Mask<4> ask(const Floats& a, const Floats& b, F f) {
+    unsigned bits = 0;
+    for (unsigned i = 0; i < 4; ++i) bits |= unsigned{f(a.lane[i], b.lane[i])} << i;
+    return {bits};
+  }
+};
+#endif
+
+#if !defined(ENCORE_AVX512)
+template <int N>
+struct Floats {
+  Floats<N / 2> low, high;
+  static Floats load(const void* from) {
+    return {Floats<N / 2>::load(from),
+            Floats<N / 2>::load(static_cast<const float*>(from) + N / 2)};
+  }
+  void store(void* to) const {
+    low.store(to);
+    high.store(static_cast<float*>(to) + N / 2);
+  }
+  static Floats all(float x) { return {Floats<N / 2>::all(x), Floats<N / 2>::all(x)}; }
+  static Floats all_bits(std::uint32_t x) {
+    return {Floats<N / 2>::all_bits(x), Floats<N / 2>::all_bits(x)};
+  }
+#define ENCORE_HALVES(RESULT, NAME)                      \
+  friend RESULT NAME(const Floats& a, const Floats& b) { \
+    return {NAME(a.low, b.low), NAME(a.high, b.high)};   \
+  }
+  ENCORE_HALVES(Floats, operator+)
+  ENCORE_HALVES(Floats, operator-)
+  ENCORE_HALVES(Floats, operator*)
+  ENCORE_HALVES(Floats, operator/)
+  ENCORE_HALVES(Floats, min)
+  ENCORE_HALVES(Floats, max)
+  ENCORE_HALVES(Floats, operator&)
+  ENCORE_HALVES(Floats, operator|)
+  ENCORE_HALVES(Floats, operator^)
+  ENCORE_HALVES(Mask<N>, operator<)
+  ENCORE_HALVES(Mask<N>, operator<=)
+  ENCORE_HALVES(Mask<N>, operator>)
+  ENCORE_HALVES(Mask<N>, operator>=)
+  ENCORE_HALVES(Mask<N>, operator==)
+#undef ENCORE_HALVES
+  friend Floats abs(const Floats& a) {
+    return {abs(a.low), abs(a.high)};
+  }
+  friend Floats select(const Mask<N>& m, const Floats& a, const Floats& b) {
+    return {select(m.low, a.low, b.low), select(m.high, a.high, b.high)};
+  }
+};
+#endif
+
+#undef ENCORE_FLOATS_ARITHMETIC
+#undef ENCORE_FLOATS_COMPARISONS
+#undef ENCORE_SELECT
+
+}  // namespace encore::accel::ENCORE_ISA
