@@ -4,6 +4,7 @@
 #include "accel/exact_oracle.h"
 #include "accel/make_structure.h"
 #include "accel/memory_bound.h"
+#include "accel/parallel.h"
 #include "app/exit_code.h"
 #include "app/interrupt.h"
 #include "app/number_text.h"
@@ -12,7 +13,6 @@
 #include "renderer/trace_defines.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
@@ -147,15 +147,18 @@ class StructureRun {
   /// Traces rays in all modes and on all devices as the structure now stands.
   void look() {
     const auto& triangles = scene_.list.triangles;
+    const accel::BuildStats stats = structure_->stats();
     const bool brute = spec_.kind == StructureKind::brute;
-    const double each = plan_.reference_tests / (brute ? 8.0 * kOracleCost : 8.0) /
-                        static_cast<double>(std::max<std::size_t>(1, triangles.size()));
+    // Where boxes and cells tell nothing apart, a ray meets all references, not each triangle once.
+    const double tests =
+        static_cast<double>(std::max<std::uint64_t>({1, triangles.size(), stats.references}));
+    const double each = plan_.reference_tests / (brute ? 8.0 * kOracleCost : 8.0) / tests;
     const std::size_t count =
         std::min(plan_.rays_per_kind, static_cast<std::size_t>(std::max(each, 4.0)));
     rays_ = accel::stability_rays(scene_.which, count, plan_.seed, triangles, *structure_);
     find_truth(brute);
-    const accel::BuildStats stats = structure_->stats();
     for (StabilityRow& row : rows_) {
+      if (interrupted) return;
       structure_->set_intersection(row.mode);
       if (row.device == "cpu") {
         trace_on_cpu(row);
@@ -175,11 +178,7 @@ class StructureRun {
     brute.build(triangles);
     truth_.resize(rays_.size());
     exact_.resize(exactly ? rays_.size() : 0);
-    constexpr std::size_t kSlice = 16;
-    const std::size_t slices = (rays_.size() + kSlice - 1) / kSlice;
-    tbb::parallel_for(std::size_t{0}, slices, [&](std::size_t slice) {
-      const std::size_t first = slice * kSlice;
-      const std::size_t count = std::min(kSlice, rays_.size() - first);
+    for_slices([&](std::size_t first, std::size_t count) {
       brute.intersect(std::span(rays_).subspan(first, count),
                       std::span(truth_).subspan(first, count));
       for (std::size_t i = first; exactly && i < first + count; ++i) {
@@ -188,24 +187,47 @@ class StructureRun {
     });
   }
 
+  /// work(first, count) over all rays on all threads, a few rays at a time: in hostile cases one
+  /// takes 50 ms. Leaves out what has not begun when interrupted; nobody looks at the rest then.
+  template <class Work>
+  void for_slices(const Work& work) const {
+    constexpr std::size_t kSlice = 4;
+    accel::Workers(0).for_parts(rays_.size(), kSlice, [&](std::size_t begin, std::size_t end) {
+      if (!interrupted) work(begin, end - begin);
+    });
+  }
+
   void trace_on_cpu(StabilityRow& row) {
     found_.resize(rays_.size());
     const auto start = Clock::now();
-    structure_->intersect(rays_, found_);
+    constexpr std::size_t kSlice = 64;
+    for (std::size_t first = 0; first < rays_.size() && !interrupted; first += kSlice) {
+      const std::size_t count = std::min(kSlice, rays_.size() - first);
+      structure_->intersect(std::span(rays_).subspan(first, count),
+                            std::span(found_).subspan(first, count));
+    }
     row.trace_s = row.trace_s.value_or(0.0) + seconds_since(start);
+    if (interrupted) return;
 
     const Exactness exactness = row.mode != IntersectionMode::precise ? Exactness::single
                                 : by_oracle(row)                      ? Exactness::twice
                                                                       : Exactness::bits;
     tally(row, exactness);
     std::vector<std::uint8_t> blocked(rays_.size());
-    structure_->occluded(rays_, blocked);
+    for_slices([&](std::size_t first, std::size_t count) {
+      structure_->occluded(std::span(rays_).subspan(first, count),
+                           std::span(blocked).subspan(first, count));
+    });
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       row.tally.wrong_occlusion += (blocked[i] != 0) != found_[i].found() ? 1 : 0;
     }
     if (spec_.kind == StructureKind::brute) return;
     std::vector<accel::TraceCounters> counters(rays_.size());
-    structure_->intersect_counted(rays_, found_, counters);
+    for_slices([&](std::size_t first, std::size_t count) {
+      structure_->intersect_counted(std::span(rays_).subspan(first, count),
+                                    std::span(found_).subspan(first, count),
+                                    std::span(counters).subspan(first, count));
+    });
     std::uint64_t most = row.most_steps.value_or(0);
     for (const accel::TraceCounters& c : counters) most = std::max<std::uint64_t>(most, c.steps);
     row.most_steps = most;

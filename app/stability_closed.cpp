@@ -1,11 +1,11 @@
 #include "app/stability_closed.h"
 
 #include "accel/make_structure.h"
+#include "accel/parallel.h"
 #include "accel/watertight_study.h"
 #include "app/interrupt.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
@@ -33,12 +33,12 @@ accel::WatertightCounts study(const accel::AccelerationStructure& structure,
                               const accel::WatertightCase& mesh, std::uint64_t rays,
                               std::uint64_t seed) {
   constexpr std::uint64_t kPart = 5'000;
-  const std::uint64_t parts = (rays + kPart - 1) / kPart;
-  std::vector<accel::WatertightCounts> counts(parts);
-  tbb::parallel_for(std::uint64_t{0}, parts, [&](std::uint64_t part) {
+  std::vector<accel::WatertightCounts> counts((rays + kPart - 1) / kPart);
+  accel::Workers(0).for_parts(rays, kPart, [&](std::size_t begin, std::size_t end) {
     if (interrupted) return;
-    const std::uint64_t some = std::min(kPart, rays - part * kPart);
-    counts[part] = accel::run_watertight_case(structure, mesh, some, seed * 1'000'003 + part);
+    const std::uint64_t part = begin / kPart;
+    counts[part] =
+        accel::run_watertight_case(structure, mesh, end - begin, seed * 1'000'003 + part);
   });
   accel::WatertightCounts sum;
   for (const accel::WatertightCounts& part : counts) sum += part;

@@ -2,11 +2,10 @@
 
 #include "accel/brute_force.h"
 #include "accel/make_structure.h"
+#include "accel/parallel.h"
 #include "accel/test_rays.h"
 #include "app/interrupt.h"
 #include "renderer/camera_rays.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,12 +62,11 @@ class SceneVerifier {
     for (const RaySet& set : sets) {
       const std::size_t slices = (set.rays.size() + kSlice - 1) / kSlice;
       std::vector<accel::OracleComparison> parts(slices);
-      tbb::parallel_for(std::size_t{0}, slices, [&](std::size_t slice) {
+      const auto run = [&](std::size_t begin, std::size_t end) {
         if (interrupted) return;
-        const std::size_t first = slice * kSlice;
-        const std::size_t count = std::min(kSlice, set.rays.size() - first);
-        parts[slice] = compare(std::span(set.rays).subspan(first, count));
-      });
+        parts[begin / kSlice] = compare(std::span(set.rays).subspan(begin, end - begin));
+      };
+      accel::Workers(0).for_parts(set.rays.size(), kSlice, run);
       for (const accel::OracleComparison& part : parts) {
         if (row.hits.mismatches() == 0 && part.hits.mismatches() > 0) row.first_kind = set.name;
         row.hits += part.hits;
