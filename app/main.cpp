@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
   encore::app::add_model_command(app, result);
   encore::app::add_attach_command(app, result);
   encore::app::add_accuracy_command(app, result);
+  encore::app::add_bench_command(app, result);
 
   try {
     app.parse(argc, argv);

@@ -23,5 +23,6 @@ void add_compare_command(CLI::App& app, ExitCode& result);
 void add_model_command(CLI::App& app, ExitCode& result);
 void add_attach_command(CLI::App& app, ExitCode& result);
 void add_accuracy_command(CLI::App& app, ExitCode& result);
+void add_bench_command(CLI::App& app, ExitCode& result);
 
 }  // namespace encore::app
