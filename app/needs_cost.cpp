@@ -1,6 +1,7 @@
 #include "app/needs_cost.h"
 
 #include "accel/make_structure.h"
+#include "energy/statistics.h"
 #include "renderer/cpu_tracer.h"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ class CostRun {
   [[nodiscard]] NeedsCost result() {
     NeedsCost cost;
     cost.size = size_;
-    cost.frame_ms = median(variants_.front().times_ms);
+    cost.frame_ms = energy::median(variants_.front().times_ms).value_or(0.0);
     const Variant* without = nullptr;
     for (const Variant& variant : variants_) {
       if (variant.feature.empty()) {
@@ -97,12 +98,6 @@ class CostRun {
   }
 
  private:
-  static double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  }
-
   [[nodiscard]] Needs needs_of_everything() const {
     scene::RaySettings all = what_.rays;
     all.shadows = all.reflections = all.refractions = true;
@@ -230,7 +225,8 @@ class CostRun {
     std::sort(differences.begin(), differences.end());
     constexpr std::size_t kTail = 3;
     static_assert(kCostRounds == 15, "FeatureCost says how sure the interval is");
-    FeatureCost cost{variant.feature, variant.same_picture, median(differences), differences[kTail],
+    FeatureCost cost{variant.feature, variant.same_picture,
+                     energy::median(differences).value_or(0.0), differences[kTail],
                      differences[differences.size() - 1 - kTail]};
     exchange(variant.forced);
     const Needs needs = scene::needs_of(variant.scene, list_, variant.rays);

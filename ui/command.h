@@ -78,6 +78,8 @@ struct StartAccuracy {
   AccuracyChoice choice;
 };
 struct StopAccuracy {};
+/// Measures how long frames would take with what the scene does without.
+struct MeasureLeftOut {};
 /// Writes what was found to a new folder among the pictures: accuracy.csv and the scatter as SVG.
 struct SaveAccuracy {};
 enum class PictureOf { pane_0, pane_1, structure_view, plots, window, accuracy };
@@ -101,7 +103,7 @@ using Command =
                  PickNode, StartRecording, PauseRecording, StopRecording, Annotate, ClearResults,
                  OpenSession, CompareSession, CloseSession, CancelSession, ExportSession,
                  ApplyEnergy, ExamineSensors, StartAccuracy, StopAccuracy, SaveAccuracy,
-                 SavePicture, CopyText, SaveText, ToggleFullScreen, Quit>;
+                 MeasureLeftOut, SavePicture, CopyText, SaveText, ToggleFullScreen, Quit>;
 using Commands = std::vector<Command>;
 
 }  // namespace encore::ui

@@ -11,6 +11,7 @@
 #include "scene/ray_settings.h"
 #include "scene/scene.h"
 #include "scene/scene_info.h"
+#include "ui/left_out_time.h"
 #include "ui/settings.h"
 
 #include <array>
@@ -54,6 +55,10 @@ struct SceneView {
   std::shared_ptr<const scene::SceneInfo> info;  ///< null until it is known
   scene::Needs could_use;                        ///< with every kind of ray; known with `info`
   std::vector<scene::LeftOut> left_out;          ///< of the panes' copies, as they are set
+  std::vector<LeftOutTime> left_out_times;       ///< where they were measured
+  std::string left_out_measured;                 ///< how; empty where they were not
+  std::string left_out_problem;                  ///< why measuring failed; one line
+  bool measuring_left_out = false;
   bool animated = false;
   double duration_s = 0.0;  ///< of one loop of the animation
   std::vector<std::string> warnings;

@@ -2,6 +2,7 @@
 
 #include "app/accuracy/accuracy_scatter.h"
 #include "app/window/steady_time.h"
+#include "energy/statistics.h"
 
 #include <fmt/format.h>
 
@@ -39,13 +40,6 @@ ui::AccuracyResult result_of(const AccuracyRow& row) {
   result.best_by_time = row.best_by_time;
   result.best_by_energy = row.best_by_energy;
   return result;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 /// A frame that does nothing but render.
@@ -197,7 +191,7 @@ void AccuracyTask::finish_round(const AccuracyRequest& request,
   for (std::size_t i = 0; i < seconds.size(); ++i) {
     AccuracyRow& row = found_.rows[i];
     if (seconds[i].empty()) continue;
-    const double typical = median(seconds[i]);
+    const double typical = energy::median(seconds[i]).value_or(0.0);
     row.ms = 1e3 * typical;
     if (!request.model) continue;
     row.joules = joules_of(*request.model, row.spec.device, typical);

@@ -95,6 +95,8 @@ void Engine::shut_down() {
   // Whatever may wait for a worker goes before the workers, and they before what they tell.
   accuracy_->cancel();
   accuracy_.reset();
+  needs_task_.cancel();
+  needs_task_.wait();
   scheduler_.reset();
   for (auto& worker : workers_) worker.reset();
   recorder_->stop();
@@ -324,6 +326,7 @@ void Engine::apply(ui::UiState& state, double now_s) {
   take_scene(state);
   take_tasks(state);
   apply_accuracy(state);
+  take_left_out();
   run_animation(state, now_s);
   power_ = monitor_->state();
   plots_.add(monitor_->drain(), power_);
@@ -359,7 +362,7 @@ void Engine::apply(ui::UiState& state, double now_s) {
 bool Engine::busy() const {
   if (loader_.loading() || session_task_.running() || other_task_.running() ||
       export_task_.running() || doctor_task_.running() || gpu_task_.running() ||
-      (accuracy_ && accuracy_->running()) || power_.opening) {
+      (accuracy_ && accuracy_->running()) || needs_task_.running() || power_.opening) {
     return true;
   }
   for (const auto& worker : workers_) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/measuring_options.h"
+#include "app/needs_cost.h"
 #include "app/window/accuracy_task.h"
 #include "app/window/doctor_view.h"
 #include "app/window/export.h"
@@ -73,7 +74,7 @@ class Engine {
   void use_energy(const ui::EnergySettings& energy);
   void start_recording(const ui::UiState& state);
   void open_session(const std::filesystem::path& folder, bool other);
-  void fill_scene(ui::View& view) const;
+  void fill_scene(ui::View& view, const ui::UiState& state) const;
   void fill_pane(ui::View& view, std::size_t pane, const ui::UiState& state) const;
   void fill_power(ui::View& view, const ui::UiState& state);
   void fill_recorder(ui::View& view) const;
@@ -84,6 +85,9 @@ class Engine {
   void save_accuracy(ui::UiState& state) const;
   void apply_accuracy(ui::UiState& state);
   void fill_accuracy(ui::View& view, const ui::UiState& state) const;
+  void measure_left_out(const ui::UiState& state);
+  void take_left_out();
+  void fill_left_out(ui::SceneView& view, const ui::UiState& state) const;
 
   Setup setup_;
   std::unique_ptr<PowerMonitor> monitor_;
@@ -134,6 +138,18 @@ class Engine {
   std::optional<bool> gpu_;
   std::string no_gpu_;
   std::unique_ptr<AccuracyTask> accuracy_;
+
+  /// What frames would cost with what they do without, and of which scene and rays that holds.
+  struct LeftOutCost {
+    std::shared_ptr<const scene::Scene> scene;
+    scene::RaySettings rays;
+    std::optional<NeedsCost> cost;
+
+    [[nodiscard]] bool is_of(const scene::Scene* other, const scene::RaySettings& others) const;
+  };
+  LeftOutCost left_out_cost_;
+  std::string needs_problem_;
+  BackgroundTask<LeftOutCost> needs_task_;
 };
 
 }  // namespace encore::app

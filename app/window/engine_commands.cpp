@@ -209,6 +209,10 @@ bool Engine::execute(const ui::Command& command, ui::UiState& state) {
                    accuracy_->cancel();
                    return true;
                  },
+                 [this, &state](const ui::MeasureLeftOut&) {
+                   measure_left_out(state);
+                   return true;
+                 },
                  [this, &state](const ui::SaveAccuracy&) {
                    save_accuracy(state);
                    return true;

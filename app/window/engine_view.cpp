@@ -27,7 +27,7 @@ ui::WorkView work_of(bool active, std::string doing, std::optional<double> progr
 
 }  // namespace
 
-void Engine::fill_scene(ui::View& view) const {
+void Engine::fill_scene(ui::View& view, const ui::UiState& state) const {
   ui::SceneView& scene = view.scene;
   scene = {};
   scene.scene = scene_;
@@ -43,6 +43,7 @@ void Engine::fill_scene(ui::View& view) const {
     const auto output = worker->output();
     if (output && scene.left_out.empty()) scene.left_out = output->left_out;
   }
+  fill_left_out(scene, state);
   scene.loading =
       work_of(loader_.loading(), loader_.doing(), loader_.progress(), true, loader_.elapsed_s());
 }
@@ -273,7 +274,7 @@ void Engine::fill_doctor(ui::View& view) const {
 
 void Engine::fill(ui::View& view, const ui::UiState& state) {
   view.pick.reset();
-  fill_scene(view);
+  fill_scene(view, state);
   fill_power(view, state);
   for (std::size_t pane = 0; pane < ui::kPaneCount; ++pane) fill_pane(view, pane, state);
   view.measure = scheduler_->view();

@@ -24,7 +24,7 @@ void draw_scene_section(const ColumnContext& context);
 /// What is to be known of a scene besides: sizes, where they lie, memory.
 void draw_scene_figures(const scene::SceneInfo& info);
 /// What the scene does without as it is set, and what that saves.
-void draw_left_out(const SceneView& scene);
+void draw_left_out(const ColumnContext& context);
 /// Which rays pictures are made of.
 void draw_rays_section(const ColumnContext& context);
 void draw_animation_section(const ColumnContext& context);

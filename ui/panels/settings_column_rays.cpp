@@ -99,6 +99,40 @@ void draw_numbers(const RayRows& rows, scene::RaySettings& rays) {
   if (rays.samples > 1) draw_seed(rays);
 }
 
+/// "0.12 ms (0.10 to 0.14)"; empty where it was not measured.
+std::string time_text(const SceneView& scene, const std::string& feature) {
+  for (const LeftOutTime& one : scene.left_out_times) {
+    if (one.feature != feature) continue;
+    if (one.below_noise) return "time below noise";
+    return fmt::format("{:.3g} ms ({:.3g} to {:.3g})", one.ms, one.low_ms, one.high_ms);
+  }
+  return {};
+}
+
+bool another_picture(const SceneView& scene, const std::string& feature) {
+  for (const LeftOutTime& one : scene.left_out_times) {
+    if (one.feature == feature) return !one.same_picture;
+  }
+  return false;
+}
+
+void draw_left_out_row(const SceneView& scene, const scene::LeftOut& one) {
+  const std::string time = time_text(scene, one.feature);
+  std::string tip = one.reason;
+  tip += one.bytes ? "\nSaves " + bytes_text(*one.bytes) + " a copy."
+                   : "\nIts code is not compiled into the kernels.";
+  if (!time.empty()) {
+    tip += fmt::format("\n{}: {}{}", "A frame with it", time,
+                       another_picture(scene, one.feature) ? ", but another picture" : " longer");
+    tip += "\n" + scene.left_out_measured;
+  }
+  std::string text = one.bytes ? bytes_text(*one.bytes) : std::string();
+  if (!time.empty()) text += (text.empty() ? "" : ", ") + time;
+  text += (text.empty() ? "" : ": ") + one.reason;
+  // The row's label lives as long as the row is drawn.
+  figure_row({"settings.scene.left_out." + one.feature, one.feature.c_str(), tip}, text);
+}
+
 }  // namespace
 
 void draw_rays_section(const ColumnContext& context) {
@@ -116,7 +150,8 @@ void draw_rays_section(const ColumnContext& context) {
   draw_numbers(rows, rays);
 }
 
-void draw_left_out(const SceneView& scene) {
+void draw_left_out(const ColumnContext& context) {
+  const SceneView& scene = context.view.scene;
   if (scene.left_out.empty()) return;
   std::uint64_t bytes = 0;
   for (const scene::LeftOut& one : scene.left_out) bytes += one.bytes.value_or(0);
@@ -128,13 +163,16 @@ void draw_left_out(const SceneView& scene) {
                    false)) {
     return;
   }
-  for (const scene::LeftOut& one : scene.left_out) {
-    // The row's label lives as long as the row is drawn.
-    figure_row({"settings.scene.left_out." + one.feature, one.feature.c_str(),
-                one.bytes ? one.reason + "\nSaves " + bytes_text(*one.bytes) + " a copy."
-                          : one.reason + "\nIts code is not compiled into the kernels."},
-               one.bytes ? bytes_text(*one.bytes) + ": " + one.reason : one.reason);
+  for (const scene::LeftOut& one : scene.left_out) draw_left_out_row(scene, one);
+  const bool free = !scene.measuring_left_out && !context.view.accuracy.work.active;
+  if (text_button({"settings.scene.left_out.measure",
+                   scene.measuring_left_out ? "Measuring ..." : "Measure times",
+                   "How much longer a frame would take with each of these, drawn by turns on the "
+                   "CPU while the panes rest: about a second."},
+                  free)) {
+    context.commands.push_back(MeasureLeftOut{});
   }
+  if (!scene.left_out_problem.empty()) ImGui::TextWrapped("%s", scene.left_out_problem.c_str());
   ImGui::TreePop();
 }
 

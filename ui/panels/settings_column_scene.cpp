@@ -123,7 +123,7 @@ void draw_scene_section(const ColumnContext& context) {
     draw_scene_figures(*scene.info);
     ImGui::TreePop();
   }
-  draw_left_out(scene);
+  draw_left_out(context);
 }
 
 }  // namespace encore::ui

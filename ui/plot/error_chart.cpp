@@ -202,15 +202,6 @@ void tooltip(const ErrorData& data, const ErrorHit& hit) {
   ImGui::EndTooltip();
 }
 
-void apply(const PlotInput& input, ErrorState& state) {
-  if (input.x_moved || input.y_moved) state.fit = false;
-  if (input.picked) {
-    set_range(state.x, input.picked->from, input.picked->to);
-    state.fit = false;
-  }
-  if (input.fit) state.fit = true;
-}
-
 /// Why there is nothing to see; what all series say is said once.
 void say_reasons(ImDrawList& list, const PlotRect& area, const ErrorData& data,
                  std::string_view reason) {
@@ -251,7 +242,7 @@ ErrorResult error_chart(std::string_view name, const ErrorData& data, ErrorState
   area.x0 += std::max(3.0F * em(), y_axis_width(y_ticks));
   if (area.width() >= 2.0F * em() && area.height() >= 2.0F * em()) {
     const PlotInput input = plot_input(name, area, &state.x, &state.y, state.drag_from);
-    apply(input, state);
+    follow_input(input, state);
     result.hovered = input.hovered;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     draw_ground(list, area);

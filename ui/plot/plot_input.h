@@ -36,4 +36,16 @@ struct PlotInput {
 PlotInput plot_input(std::string_view name, const PlotRect& area, Axis* x, Axis* y,
                      std::optional<double>& drag_from);
 
+/// What a plot that follows its data does about the input: moving an axis or picking a range ends
+/// the following (`state.fit`), a double click begins it again. `state.x` is the axis of ranges.
+template <class State>
+void follow_input(const PlotInput& input, State& state) {
+  if (input.x_moved || input.y_moved) state.fit = false;
+  if (input.picked) {
+    set_range(state.x, input.picked->from, input.picked->to);
+    state.fit = false;
+  }
+  if (input.fit) state.fit = true;
+}
+
 }  // namespace encore::ui

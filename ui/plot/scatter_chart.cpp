@@ -134,15 +134,6 @@ std::optional<Placed> nearest(const std::vector<Placed>& placed, float x, float 
   return best;
 }
 
-void apply(const PlotInput& input, ScatterState& state) {
-  if (input.x_moved || input.y_moved) state.fit = false;
-  if (input.picked) {
-    set_range(state.x, input.picked->from, input.picked->to);
-    state.fit = false;
-  }
-  if (input.fit) state.fit = true;
-}
-
 std::optional<ScatterHit> draw_inside(ImDrawList& list, const PlotRect& area,
                                       const ScatterData& data, const ScatterState& state,
                                       const PlotInput& input, std::string_view reason) {
@@ -211,7 +202,7 @@ std::optional<ScatterHit> scatter_chart(std::string_view name, const ScatterData
   area.x0 += std::max(3.0F * em(), y_axis_width(y_ticks));
   if (area.width() >= 2.0F * em() && area.height() >= 2.0F * em()) {
     const PlotInput input = plot_input(name, area, &state.x, &state.y, state.drag_from);
-    apply(input, state);
+    follow_input(input, state);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     draw_ground(list, area);
     const bool any = std::any_of(data.series.begin(), data.series.end(),
