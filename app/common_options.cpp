@@ -110,6 +110,43 @@ void apply_settings(accel::StructureSpec& spec, const CommonOptions& options,
   }
 }
 
+/// The groupings asked for, else packets; each once.
+std::vector<accel::RayGrouping> chosen_groupings(const CommonOptions& options) {
+  std::vector<accel::RayGrouping> groupings;
+  for (const std::string& name : options.groupings) {
+    const auto grouping = accel::parse_ray_grouping(name);
+    if (!grouping) {
+      throw UsageError(
+          fmt::format("unknown ray grouping '{}'; there are packets and single", name));
+    }
+    if (std::find(groupings.begin(), groupings.end(), *grouping) == groupings.end()) {
+      groupings.push_back(*grouping);
+    }
+  }
+  if (groupings.empty()) groupings.push_back(accel::RayGrouping::packets);
+  return groupings;
+}
+
+/// The presets asked for, else the one that the settings say; one for structures that have none.
+std::vector<accel::BuildPreset> chosen_presets(const CommonOptions& options,
+                                               const accel::StructureSpec& spec) {
+  std::vector<accel::BuildPreset> presets;
+  for (const std::string& name : options.presets) {
+    const auto preset = accel::parse_build_preset(name);
+    if (!preset) {
+      throw UsageError(fmt::format("unknown preset '{}'; there are fast, balanced and best", name));
+    }
+    if (std::find(presets.begin(), presets.end(), *preset) == presets.end()) {
+      presets.push_back(*preset);
+    }
+  }
+  const auto* bvh = std::get_if<accel::BvhSettings>(&spec.settings);
+  if (presets.empty() || spec.kind != accel::StructureKind::bvh_sah) {
+    return {bvh != nullptr ? bvh->preset : accel::BuildPreset::balanced};
+  }
+  return presets;
+}
+
 }  // namespace
 
 void add_output_options(CLI::App& command, CommonOptions& options) {
@@ -152,12 +189,29 @@ void add_structure_options(CLI::App& command, CommonOptions& options, bool many)
                   fmt::join(modes, ", "), many ? "; several separated by commas" : ""));
   intersection->delimiter(',')->allow_extra_args(false);
   if (!many) intersection->expected(1);
+  auto* preset = command.add_option(
+      "--preset", options.presets,
+      fmt::format("How much bvh-sah spends on its tree: fast, balanced, best{} (default: balanced)",
+                  many ? "; several separated by commas" : ""));
+  preset->delimiter(',')->allow_extra_args(false);
+  auto* grouping = command.add_option(
+      "--grouping", options.groupings,
+      fmt::format("packets: neighbouring rays of a picture go together on the CPU (default); "
+                  "single: one after the other, as in the thesis{}",
+                  many ? "; several separated by commas" : ""));
+  grouping->delimiter(',')->allow_extra_args(false);
+  if (!many) {
+    preset->expected(1);
+    grouping->expected(1);
+  }
   command.add_option("--memory", options.memory,
                      "pool: reuse memory from build to build (default); malloc: allocate afresh");
 }
 
 void add_thread_option(CLI::App& command, CommonOptions& options) {
-  command.add_option("--threads,-t", options.threads, "Threads for rendering; 0: all (default)")
+  command
+      .add_option("--threads,-t", options.threads,
+                  "Threads for building and rendering; 0: all (default)")
       ->check(CLI::Range(0, 4096));
 }
 
@@ -185,14 +239,23 @@ std::vector<accel::StructureSpec> chosen_structures(const CommonOptions& options
   if (kinds.empty()) kinds = default_kinds();
 
   const std::vector<accel::IntersectionMode> modes = chosen_intersections(options, scene);
+  const std::vector<accel::RayGrouping> groupings = chosen_groupings(options);
   std::vector<accel::StructureSpec> specs;
   for (const accel::StructureKind kind : kinds) {
     accel::StructureSpec spec = accel::default_spec(kind);
     spec.memory = *memory;
     apply_settings(spec, options, scene);
-    for (const accel::IntersectionMode mode : modes) {
-      spec.intersection = mode;
-      specs.push_back(spec);
+    for (const accel::BuildPreset preset : chosen_presets(options, spec)) {
+      if (kind == accel::StructureKind::bvh_sah) {
+        std::get<accel::BvhSettings>(spec.settings).preset = preset;
+      }
+      for (const accel::IntersectionMode mode : modes) {
+        spec.intersection = mode;
+        for (const accel::RayGrouping grouping : groupings) {
+          spec.grouping = grouping;
+          specs.push_back(spec);
+        }
+      }
     }
   }
   return specs;

@@ -21,6 +21,8 @@ struct CommonOptions {
   std::vector<std::string> structures;   ///< names; empty or "all": all but brute
   std::vector<std::string> settings;     ///< "key=value", e.g. "grid.cells_per_axis=64"
   std::string memory = "pool";
+  std::vector<std::string> presets;        ///< of bvh-sah; empty: what the settings say
+  std::vector<std::string> groupings;      ///< of rays; empty: packets
   int threads = 0;                         ///< 0: all
   std::vector<std::string> intersections;  ///< names of modes; empty: the scene's own
   // As scene::apply_ray_setting() takes them; empty: the scene's own (app/ray_options.h).
@@ -41,8 +43,8 @@ scene::Scene open_scene(const std::string& name_or_path, const CommonOptions& op
 
 /// The structures asked for: --structure, else the scene's own preference, else all but brute;
 /// with settings from the scene's preferences, then from --set, then --memory; each once for every
-/// intersection mode. Throws UsageError
-/// (with the nearest name) or scene::InputError (for a wrong preference of the scene file).
+/// intersection mode and ray grouping, and bvh-sah for every preset. Throws UsageError (with the
+/// nearest name) or scene::InputError (for a wrong preference of the scene file).
 std::vector<accel::StructureSpec> chosen_structures(const CommonOptions& options,
                                                     const scene::Scene& scene);
 

@@ -55,6 +55,8 @@ ConfigurationCells::ConfigurationCells(const std::vector<energy::SummaryRow>& ro
     : groups_(differs(rows, "group", "")),
       devices_(differs(rows, "device", "cpu")),
       memory_(differs(rows, "memory", "pool")),
+      presets_(differs(rows, "preset", "balanced")),
+      groupings_(differs(rows, "grouping", "packets")),
       cases_(differs(rows, "update_case", "real")),
       intersections_(varies(rows, "intersection")),
       rays_(varies(rows, "rays")),
@@ -62,8 +64,9 @@ ConfigurationCells::ConfigurationCells(const std::vector<energy::SummaryRow>& ro
       repeats_(differs(rows, "repeat", "1")) {}
 
 void ConfigurationCells::add_columns(TextTable& table) {
-  for (const char* title : {"group", "scene", "device", "test", "structure", "policy", "case",
-                            "memory", "intersection", "rays", "samples", "size", "repeat"}) {
+  for (const char* title :
+       {"group", "scene", "device", "test", "structure", "policy", "case", "memory", "preset",
+        "intersection", "grouping", "rays", "samples", "size", "repeat"}) {
     table.add_column(title, TextTable::Align::left);
   }
 }
@@ -82,7 +85,9 @@ std::vector<std::string> ConfigurationCells::cells(
           value("policy"),
           value("update_case", cases_),
           value("memory", memory_),
+          value("preset", presets_),
           value("intersection", intersections_),
+          value("grouping", groupings_),
           value("rays", rays_),
           value("samples", samples_),
           width.empty() ? std::string() : width + "x" + value("height"),

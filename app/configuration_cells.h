@@ -23,6 +23,8 @@ class ConfigurationCells {
   bool groups_;
   bool devices_;
   bool memory_;
+  bool presets_;
+  bool groupings_;
   bool cases_;
   bool intersections_;
   bool rays_;

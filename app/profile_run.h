@@ -39,9 +39,9 @@ struct ProfileOutcome {
 };
 
 /// Measures these configurations as run_profile() does, options telling how.
-ProfileOutcome measure_profile(const ProfileOptions& options, const std::vector<WorkloadSpec>& specs,
-                               const WorkloadTools& tools, const std::atomic<bool>& stop,
-                               Terminal& terminal);
+ProfileOutcome measure_profile(const ProfileOptions& options,
+                               const std::vector<WorkloadSpec>& specs, const WorkloadTools& tools,
+                               const std::atomic<bool>& stop, Terminal& terminal);
 
 /// Measures everything that the options ask for, one configuration after the other, and writes the
 /// session as it goes. Once `stop` is set it ends after the current operation with what it has

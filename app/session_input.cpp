@@ -16,6 +16,7 @@ namespace {
 /// What plain ray casting says of itself.
 bool is_plain(const energy::KeyValue& part) {
   return (part.key == "intersection" && part.value == "precise") ||
+         (part.key == "grouping" && part.value == "packets") ||
          (part.key == "rays" && part.value == "none") ||
          (part.key == "samples" && part.value == "1");
 }

@@ -210,6 +210,8 @@ StudyGroup read_group(TomlTable& table) {
   std::vector<std::string_view> modes;
   for (const auto mode : accel::all_intersection_modes()) modes.push_back(accel::to_string(mode));
   group.intersections = words(table, "intersections", one_of("intersection mode", modes));
+  group.presets = words(table, "presets", one_of("preset", {"fast", "balanced", "best"}));
+  group.groupings = words(table, "groupings", one_of("ray grouping", {"packets", "single"}));
   group.rays = words(table, "rays", ray_setting("rays"), {""});
   group.samples = words(table, "samples", ray_setting("samples"), {""});
   group.depth = words(table, "depth", ray_setting("depth"), {""}).front();

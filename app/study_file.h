@@ -25,6 +25,8 @@ struct StudyGroup {
   std::vector<std::string> update_cases;   ///< empty: real
   std::vector<std::string> settings;       ///< "key=value"
   std::vector<std::string> intersections;  ///< names of modes; empty: the scene's own
+  std::vector<std::string> presets;        ///< of bvh-sah; empty: what `set` says
+  std::vector<std::string> groupings;      ///< of rays; empty: packets
   std::vector<std::string> rays;           ///< each as --rays takes it; {""}: the scene's own
   std::vector<std::string> samples;        ///< likewise
   std::string depth;                       ///< likewise

@@ -51,6 +51,8 @@ ProfileOptions options_of(const StudyGroup& group, const Study& study, const std
   options.settings = group.settings;
   options.threads = group.threads;
   options.intersections = group.intersections;
+  options.presets = group.presets;
+  options.groupings = group.groupings;
   options.depth = group.depth;
   return options;
 }

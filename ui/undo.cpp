@@ -45,6 +45,8 @@ void pane_changes(const Settings& before, const Settings& after, std::size_t pan
   } else if (a.structure.intersection != b.structure.intersection) {
     names.push_back(
         fmt::format("intersection of {}: {}", name, to_string(b.structure.intersection)));
+  } else if (a.structure.grouping != b.structure.grouping) {
+    names.push_back(fmt::format("ray grouping of {}: {}", name, to_string(b.structure.grouping)));
   } else if (a.structure.memory != b.structure.memory) {
     names.push_back(fmt::format("memory of {}: {}", name, to_string(b.structure.memory)));
   } else if (a.structure != b.structure) {

@@ -43,6 +43,27 @@ std::string json_or_null(const std::optional<double>& value) {
   return value ? json_number(*value) : "null";
 }
 
+/// The preset of a row whose structure has any.
+std::string preset_of(const AccuracyRow& row) {
+  const auto* bvh = std::get_if<accel::BvhSettings>(&row.spec.structure.settings);
+  const bool any = row.spec.structure.kind == accel::StructureKind::bvh_sah && bvh != nullptr;
+  return any ? std::string(accel::to_string(bvh->preset)) : std::string();
+}
+
+std::string grouping_of(const AccuracyRow& row) {
+  return row.spec.device == Device::cpu ? std::string(accel::to_string(row.spec.structure.grouping))
+                                        : std::string();
+}
+
+/// The structure, and what of preset and grouping is not the usual.
+std::string structure_label(const AccuracyRow& row) {
+  std::string label(accel::to_string(row.spec.structure.kind));
+  const std::string preset = preset_of(row);
+  if (!preset.empty() && preset != "balanced") label += " " + preset;
+  if (grouping_of(row) == "single") label += ", single rays";
+  return label;
+}
+
 /// The cells of a row: name and text as files hold it; `text` says that it is no number.
 struct Cell {
   const char* name;
@@ -55,7 +76,9 @@ std::vector<Cell> cells_of(const AccuracyRow& row) {
   return {{"scene", row.spec.scene->name, true},
           {"device", std::string(to_string(row.spec.device)), true},
           {"structure", std::string(accel::to_string(row.spec.structure.kind)), true},
+          {"preset", preset_of(row), true},
           {"intersection", std::string(accel::to_string(row.spec.structure.intersection)), true},
+          {"grouping", grouping_of(row), true},
           {"rays", ray_list(row.spec.rays), true},
           {"samples", std::to_string(row.spec.rays.samples)},
           {"width", std::to_string(row.spec.size.width)},
@@ -84,9 +107,9 @@ void mark_pareto_fronts(std::vector<AccuracyRow>& rows) {
 }
 
 std::string accuracy_label(const AccuracyRow& row) {
-  return fmt::format("{}, {}, {}, {} sample{}", accel::to_string(row.spec.structure.kind),
-                     to_string(row.spec.device), accel::to_string(row.spec.structure.intersection),
-                     row.spec.rays.samples, row.spec.rays.samples == 1 ? "" : "s");
+  return fmt::format("{}, {}, {}, {} sample{}", structure_label(row), to_string(row.spec.device),
+                     accel::to_string(row.spec.structure.intersection), row.spec.rays.samples,
+                     row.spec.rays.samples == 1 ? "" : "s");
 }
 
 std::string accuracy_table(const std::vector<AccuracyRow>& rows) {
@@ -102,8 +125,7 @@ std::string accuracy_table(const std::vector<AccuracyRow>& rows) {
     const HitErrors& hits = row.errors.hits;
     std::string front = row.best_by_time ? "ms" : "";
     if (row.best_by_energy) front += front.empty() ? "J" : ", J";
-    table.add_row({std::string(to_string(row.spec.device)),
-                   std::string(accel::to_string(row.spec.structure.kind)),
+    table.add_row({std::string(to_string(row.spec.device)), structure_label(row),
                    std::string(accel::to_string(row.spec.structure.intersection)),
                    std::to_string(row.spec.rays.samples), fmt::format("{:.3e}", row.errors.rmse),
                    std::to_string(hits.missed), std::to_string(hits.invented),

@@ -14,6 +14,7 @@ ConfigurationTracers::ConfigurationTracers(const scene::Scene& scene,
 accel::AccelerationStructure& ConfigurationTracers::structure_of(const accel::StructureSpec& spec) {
   accel::StructureSpec build = spec;
   build.intersection = accel::IntersectionMode::precise;
+  build.grouping = accel::RayGrouping::packets;
   auto found = std::find_if(built_.begin(), built_.end(),
                             [&](const Built& one) { return one.spec == build; });
   if (found == built_.end()) {
@@ -23,6 +24,7 @@ accel::AccelerationStructure& ConfigurationTracers::structure_of(const accel::St
     found = built_.end() - 1;
   }
   found->structure->set_intersection(spec.intersection);
+  found->structure->set_grouping(spec.grouping);
   return *found->structure;
 }
 

@@ -38,6 +38,7 @@ class Watched {
 /// Whether a structure that was built for one spec serves the other.
 bool same_build(accel::StructureSpec a, const accel::StructureSpec& b) {
   a.intersection = b.intersection;
+  a.grouping = b.grouping;
   return a == b;
 }
 
@@ -87,16 +88,19 @@ void PaneTracer::use_structure(const PaneRequest& request) {
     built_ = false;
     return;
   }
+  if (structure_) structure_->set_build_threads(request.threads);
   if (structure_ && spec_ && *spec_ == request.structure) return;
   ready_ = false;
   if (structure_ && spec_ && same_build(*spec_, request.structure)) {
     structure_->set_intersection(request.structure.intersection);
+    structure_->set_grouping(request.structure.grouping);
     spec_ = request.structure;
     ++content_serial_;
     return;
   }
   built_ = false;
   structure_ = accel::make_structure(request.structure);
+  structure_->set_build_threads(request.threads);
   costs_ = accel::AutoPolicy(accel::auto_rule(request.structure.settings));
   spec_ = request.structure;
 }

@@ -49,6 +49,8 @@ void visit_structure_settings(Archive& archive, accel::KdTreeSettings& kd) {
 
 template <class Archive>
 void visit_structure_settings(Archive& archive, accel::BvhSettings& bvh) {
+  archive.word("preset", bvh.preset,
+               Words<accel::BuildPreset>{accel::to_string, accel::parse_build_preset});
   archive.word("update_case", bvh.update_case,
                Words<accel::UpdateCase>{accel::to_string, accel::parse_update_case});
   archive.seed("seed", bvh.seed);
@@ -68,11 +70,14 @@ void visit_structure(Archive& archive, accel::StructureSpec& spec) {
     spec = accel::default_spec(kind);
     spec.memory = before.memory;
     spec.intersection = before.intersection;
+    spec.grouping = before.grouping;
   }
   archive.word("memory", spec.memory,
                Words<accel::MemoryMode>{accel::to_string, accel::parse_memory_mode});
   archive.word("intersection", spec.intersection,
                Words<accel::IntersectionMode>{accel::to_string, accel::parse_intersection_mode});
+  archive.word("grouping", spec.grouping,
+               Words<accel::RayGrouping>{accel::to_string, accel::parse_ray_grouping});
   std::visit([&](auto& settings) { visit_structure_settings(archive, settings); }, spec.settings);
 }
 

@@ -200,6 +200,8 @@ TEST_F(Profile, WrongWordsAreUsageErrorsBeforeAnythingIsWritten) {
   });
   wrong([&] { options.size = "0"; });
   wrong([&] { options.update_case = "typical"; });
+  wrong([&] { options.presets = {"slow"}; });
+  wrong([&] { options.groupings = {"pairs"}; });
   wrong([&] { options.tests = {"dynamic"}; });  // a still scene: nothing is left to measure
 }
 

@@ -65,5 +65,46 @@ TEST_F(Column, WhatIsLeftOutIsListedWithItsBytes) {
   EXPECT_EQ(find("settings.scene.left_out.shadow rays")->state, "switched off");
 }
 
+TEST_F(Column, WhatIsLeftOutSavesIsMeasuredWhenAsked) {
+  view.scene.left_out = {{"vertex colours", "no mesh has any", 3600},
+                         {"shadow rays", "switched off", std::nullopt}};
+  click("settings.scene.left_out", 0, 0.3F);
+  click("settings.scene.left_out.measure");
+  EXPECT_NE(command<MeasureLeftOut>(), nullptr);
+  view.scene.left_out_times = {{"vertex colours", 0.125, 0.1, 0.15, false, true},
+                               {"shadow rays", 0.01, -0.1, 0.2, true, false}};
+  ASSERT_TRUE(shown("settings.scene.left_out.vertex colours"));
+  EXPECT_EQ(find("settings.scene.left_out.vertex colours")->state,
+            "3.52 KiB, 0.125 ms (0.1 to 0.15): no mesh has any");
+  EXPECT_EQ(find("settings.scene.left_out.shadow rays")->state, "time below noise: switched off");
+}
+
+TEST_F(Column, WhatIsLeftOutIsNotMeasuredTwiceAtOnce) {
+  view.scene.left_out = {{"shadow rays", "switched off", std::nullopt}};
+  view.scene.measuring_left_out = true;
+  click("settings.scene.left_out", 0, 0.3F);
+  click("settings.scene.left_out.measure");
+  EXPECT_EQ(command<MeasureLeftOut>(), nullptr);
+}
+
+TEST_F(Column, RaysOfTheCpuGoTogetherOrAlone) {
+  left().device = PaneDevice::cpu;
+  choose("settings.left.grouping", "single");
+  EXPECT_EQ(left().structure.grouping, accel::RayGrouping::single);
+  left().device = PaneDevice::gpu;
+  EXPECT_FALSE(shown("settings.left.grouping"));
+}
+
+TEST_F(Column, OnlyTheHierarchyOfTodayHasPresets) {
+  left().device = PaneDevice::cpu;
+  left().structure = accel::default_spec(accel::StructureKind::bvh_median);
+  EXPECT_FALSE(shown("settings.left.bvh.preset"));
+  left().structure = accel::default_spec(accel::StructureKind::bvh_sah);
+  choose("settings.left.bvh.preset", "fast");
+  EXPECT_EQ(std::get<accel::BvhSettings>(left().structure.settings).preset,
+            accel::BuildPreset::fast);
+  EXPECT_FALSE(shown("settings.left.bvh.update_case")) << "the thesis' emulation is bvh-median's";
+}
+
 }  // namespace
 }  // namespace encore::ui

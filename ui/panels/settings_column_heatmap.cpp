@@ -42,7 +42,8 @@ void draw_cost(const UiState& state, HeatmapSettings& heatmap) {
   bool steps = false;
   for (const PaneSettings& pane : state.settings.panes) {
     if (!shows_heatmap(pane)) continue;
-    boxes = boxes || pane.structure.kind == accel::StructureKind::bvh_median;
+    boxes = boxes || pane.structure.kind == accel::StructureKind::bvh_median ||
+            pane.structure.kind == accel::StructureKind::bvh_sah;
     steps = steps || pane.structure.kind != accel::StructureKind::brute;
   }
   std::vector<ValueChoice<HeatmapCost>> costs;

@@ -34,8 +34,9 @@ constexpr std::array<ValueChoice<HiddenLines>, 3> kHidden{{
 
 void draw_colors(const ColumnContext& context, OverlaySettings& overlay) {
   const UiState& state = context.state;
-  const bool bvh =
-      any_structure(state, [](auto kind) { return kind == accel::StructureKind::bvh_median; });
+  const bool bvh = any_structure(state, [](auto kind) {
+    return kind == accel::StructureKind::bvh_median || kind == accel::StructureKind::bvh_sah;
+  });
   const bool refits = any_structure(state, can_refit);
   std::vector<ValueChoice<OverlayColor>> colors;
   for (const auto& color : kColors) {

@@ -38,7 +38,7 @@ constexpr std::array<ValueChoice<PaneContent>, 3> kContents{{
      "against the other pane's picture, which has to have the same size"},
 }};
 
-constexpr std::array<ValueChoice<StructureKind>, 6> kKinds{{
+constexpr std::array<ValueChoice<StructureKind>, 7> kKinds{{
     {StructureKind::grid_exact, "grid-exact",
      "uniform grid; a triangle is kept in the cells that it overlaps (thesis: UG-A)"},
     {StructureKind::grid_box, "grid-box",
@@ -50,8 +50,11 @@ constexpr std::array<ValueChoice<StructureKind>, 6> kKinds{{
      "kd-tree that splits where the surface area heuristic expects the least cost: dear to build, "
      "cheap to trace (thesis: KD-S)"},
     {StructureKind::bvh_median, "bvh-median",
-     "bounding volume hierarchy split in the middle, one triangle a leaf; the only one that can be "
-     "refitted (thesis: BV, built BV-F, refitted BV-U)"},
+     "bounding volume hierarchy split in the middle, one triangle a leaf (thesis: BV, built BV-F, "
+     "refitted BV-U)"},
+    {StructureKind::bvh_sah, "bvh-sah",
+     "bounding volume hierarchy of up to eight children, built by the surface area heuristic and "
+     "traced with the processor's widest registers: what a tracer of today uses"},
     {StructureKind::brute, "brute",
      "no structure: every ray tests every triangle; what the others are held to"},
 }};
@@ -79,6 +82,12 @@ constexpr std::array<ValueChoice<accel::IntersectionMode>, 3> kIntersections{{
     {accel::IntersectionMode::watertight, "watertight",
      "Woop, Benthin and Wald 2013 in single precision: no ray slips between triangles that share "
      "an edge"},
+}};
+
+constexpr std::array<ValueChoice<accel::RayGrouping>, 2> kGroupings{{
+    {accel::RayGrouping::packets, "packets",
+     "neighbouring rays go through the structure together: the same hits, found sooner"},
+    {accel::RayGrouping::single, "single", "one ray after the other, as in the thesis"},
 }};
 
 constexpr std::array<ValueChoice<SizeChoice>, 6> kSizes{{
@@ -168,6 +177,12 @@ void draw_structure(const std::string& prefix, const ColumnContext& context, Pan
                     "device. Costs time a test, but no build: the structure stays as it is."},
                    pane.structure.intersection, kIntersections);
   if (brute) return;
+  if (pane.device == PaneDevice::cpu) {
+    value_choice_row({prefix + ".grouping", "Rays go",
+                      "Whether neighbouring rays of a picture share the structure's steps. Takes "
+                      "effect at once; heat maps always count single rays."},
+                     pane.structure.grouping, kGroupings);
+  }
   value_choice_row({prefix + ".memory", "Memory",
                     "Where a build's memory comes from. Requests to the allocator cost time and, "
                     "the thesis asks, energy."},

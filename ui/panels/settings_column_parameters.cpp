@@ -32,6 +32,13 @@ constexpr std::array<ValueChoice<accel::AutoRule>, 2> kRules{{
      "builds where the SAH cost has grown so far: at the same frames on every machine"},
 }};
 
+constexpr std::array<ValueChoice<accel::BuildPreset>, 3> kPresets{{
+    {accel::BuildPreset::fast, "fast", "along Morton codes: for scenes that are built every frame"},
+    {accel::BuildPreset::balanced, "balanced", "binned surface area heuristic"},
+    {accel::BuildPreset::best, "best",
+     "the same with long triangles split, and optimised afterwards: dear to build, cheap to trace"},
+}};
+
 constexpr std::array<ValueChoice<UpdateCase>, 4> kCases{{
     {UpdateCase::real, "real", "those whose triangles moved"},
     {UpdateCase::best, "best", "none: every leaf is checked, nothing is written"},
@@ -184,13 +191,23 @@ void draw_seed(const std::string& prefix, BvhSettings& bvh) {
   if (reset_button(row.name + ".reset", fmt::format("{}", usual.seed))) bvh.seed = usual.seed;
 }
 
-void draw_bvh(const std::string& prefix, BvhSettings& bvh, Policy policy) {
-  const BvhSettings usual;
+void draw_update_case(const std::string& prefix, BvhSettings& bvh) {
   value_choice_row({prefix + ".bvh.update_case", "Update case",
                     "Which leaves a refit treats as changed: the real ones, or the thesis' "
                     "emulation (5.1.1) over a scene that stands still."},
                    bvh.update_case, kCases);
   if (bvh.update_case == UpdateCase::average) draw_seed(prefix, bvh);
+}
+
+void draw_preset(const std::string& prefix, BvhSettings& bvh) {
+  value_choice_row({prefix + ".bvh.preset", "Preset", "How much a build spends on its tree."},
+                   bvh.preset, kPresets);
+}
+
+void draw_bvh(const std::string& prefix, BvhSettings& bvh, accel::StructureKind kind,
+              Policy policy) {
+  const BvhSettings usual;
+  if (kind == accel::StructureKind::bvh_median) draw_update_case(prefix, bvh);
   if (policy != Policy::automatic) return;
   value_choice_row({prefix + ".bvh.auto_rule", "Rule", "By what policy auto decides to build."},
                    bvh.auto_rule, kRules);
@@ -215,9 +232,10 @@ void draw_structure_parameters(const char* prefix, PaneSettings& pane, bool move
   accel::StructureSpec& spec = pane.structure;
   const bool refits = moves && can_refit(spec.kind) &&
                       (pane.policy == Policy::refit || pane.policy == Policy::automatic);
-  // A hierarchy's parameters are all about refits.
+  // The parameters of a hierarchy split in the middle are all about refits.
+  const bool preset = spec.kind == accel::StructureKind::bvh_sah;
   if (std::holds_alternative<accel::BruteSettings>(spec.settings)) return;
-  if (std::holds_alternative<BvhSettings>(spec.settings) && !refits) return;
+  if (std::holds_alternative<BvhSettings>(spec.settings) && !refits && !preset) return;
   const bool usual = spec.settings == accel::default_spec(spec.kind).settings;
   const std::string name = std::string(prefix) + ".parameters";
   if (!begin_group(name, usual ? "Parameters" : "Parameters (changed)",
@@ -233,7 +251,10 @@ void draw_structure_parameters(const char* prefix, PaneSettings& pane, bool move
     draw_kd_memory(prefix, *kd);
     if (spec.kind == accel::StructureKind::kd_sah) draw_kd_sah(prefix, *kd);
   }
-  if (auto* bvh = std::get_if<BvhSettings>(&spec.settings)) draw_bvh(prefix, *bvh, pane.policy);
+  if (auto* bvh = std::get_if<BvhSettings>(&spec.settings)) {
+    if (preset) draw_preset(prefix, *bvh);
+    if (refits) draw_bvh(prefix, *bvh, spec.kind, pane.policy);
+  }
   ImGui::TreePop();
 }
 
