@@ -31,23 +31,27 @@ bool trace_packet(const TraceScene& scene, RayPacket& packet) {
              : PacketTrace<Tester, kAnyHit, false>(scene, packet, frustums).run();
 }
 
-/// What a packet covers of a rectangle.
-struct Block {
-  std::size_t first, width;
-  std::uint32_t columns, rows;
-};
-
-/// Calls work(Block, place) for all packets of a rectangle.
-template <class Work>
+/// Calls together(first ray) for all packets of a rectangle. For those of which it returns false,
+/// the rays go alone(first, count): a whole band of packets at once where none goes together, as
+/// single rays are quick only in long batches.
+template <class Together, class Alone>
 [[gnu::always_inline]] inline void for_packets(std::size_t width, std::size_t height,
-                                               RayPacket& packet, const Work& work) {
+                                               RayPacket& packet, const Together& together,
+                                               const Alone& alone) {
   std::uint32_t columns = 8;
   while (columns > 1 && columns / 2 >= width) columns /= 2;
   while (columns < kPacketRays && kPacketRays / columns / 2 >= height) columns *= 2;
   const std::uint32_t rows = kPacketRays / columns;
   std::uint32_t set_columns = 0, set_rows = 0;
+  const auto alone_in = [&](std::size_t y, std::size_t x, std::size_t has_rows) {
+    const std::size_t count = width - x < columns ? width - x : columns;
+    for (std::size_t row = 0; row < has_rows; ++row) alone((y + row) * width + x, count);
+  };
   for (std::size_t y = 0; y < height; y += rows) {
     const auto has_rows = static_cast<std::uint32_t>(height - y < rows ? height - y : rows);
+    // Until the first packet that goes together, those that do not are only counted.
+    bool any = false;
+    std::size_t left = 0;
     for (std::size_t x = 0; x < width; x += columns) {
       const auto has_columns =
           static_cast<std::uint32_t>(width - x < columns ? width - x : columns);
@@ -56,8 +60,17 @@ template <class Work>
         set_rows = has_rows;
         set_columns = has_columns;
       }
-      work(Block{y * width + x, width, has_columns, has_rows});
+      if (together(y * width + x)) {
+        for (std::size_t k = 0; k < left; ++k) alone_in(y, k * columns, has_rows);
+        left = 0;
+        any = true;
+      } else if (any) {
+        alone_in(y, x, has_rows);
+      } else {
+        ++left;
+      }
     }
+    if (left > 0) alone(y * width, has_rows * width);
   }
 }
 
@@ -83,17 +96,16 @@ void intersect(const WideView& tree, const scene::Triangle* triangles, const sce
   const auto single = single_kernels().intersect[kMode];
   if (tree.node_count == 0) return single(tree, triangles, rays, width * height, hits);
   RayPacket packet;
-  for_packets(width, height, packet, [&](const Block& block) {
-    const TraceScene scene{tree, triangles, rays + block.first};
+  const auto together = [&](std::size_t first) {
+    const TraceScene scene{tree, triangles, rays + first};
     load_rays(scene.rays, packet);
-    if (trace_packet<typename Plan::Tester, false>(scene, packet)) {
-      Plan::finish(scene, packet);
-      return store_hits(packet, hits + block.first);
-    }
-    for (std::size_t row = 0; row < block.rows; ++row) {
-      const std::size_t first = block.first + row * block.width;
-      single(tree, triangles, rays + first, block.columns, hits + first);
-    }
+    if (!trace_packet<typename Plan::Tester, false>(scene, packet)) return false;
+    Plan::finish(scene, packet);
+    store_hits(packet, hits + first);
+    return true;
+  };
+  for_packets(width, height, packet, together, [&](std::size_t first, std::size_t count) {
+    single(tree, triangles, rays + first, count, hits + first);
   });
 }
 
@@ -103,16 +115,15 @@ void occluded(const WideView& tree, const scene::Triangle* triangles, const scen
   const auto single = single_kernels().occluded[kMode];
   if (tree.node_count == 0) return single(tree, triangles, rays, width * height, blocked);
   RayPacket packet;
-  for_packets(width, height, packet, [&](const Block& block) {
-    const TraceScene scene{tree, triangles, rays + block.first};
+  const auto together = [&](std::size_t first) {
+    const TraceScene scene{tree, triangles, rays + first};
     load_rays(scene.rays, packet);
-    if (trace_packet<Tester, true>(scene, packet)) {
-      return store_blocked(packet, blocked + block.first);
-    }
-    for (std::size_t row = 0; row < block.rows; ++row) {
-      const std::size_t first = block.first + row * block.width;
-      single(tree, triangles, rays + first, block.columns, blocked + first);
-    }
+    if (!trace_packet<Tester, true>(scene, packet)) return false;
+    store_blocked(packet, blocked + first);
+    return true;
+  };
+  for_packets(width, height, packet, together, [&](std::size_t first, std::size_t count) {
+    single(tree, triangles, rays + first, count, blocked + first);
   });
 }
 
