@@ -28,8 +28,8 @@ SoakTally soak(const SoakPlan& plan, const std::shared_ptr<renderer::gl::Context
 }
 
 TEST(Soak, OnTheCpuFindsTheRightHitsAndKeepsItsMemory) {
-  const SoakTally tally = soak({.seed = 1, .size = 32, .slices = 16, .slices_used = 1}, nullptr, 4);
-  EXPECT_EQ(tally.rounds, 4U);
+  const SoakTally tally = soak({.seed = 1, .size = 32, .slices = 16, .slices_used = 1}, nullptr, 7);
+  EXPECT_EQ(tally.rounds, 7U);
   EXPECT_GT(tally.checks.hits, tally.checks.rays / 5);
   EXPECT_GT(tally.checks.loose, 0U);
   EXPECT_GT(tally.pictures, 100U);
@@ -41,7 +41,7 @@ class SoakOnDevices : public GlTest {};
 
 TEST_F(SoakOnDevices, FindsTheRightHitsAndKeepsItsMemory) {
   const SoakTally tally =
-      soak({.seed = 2, .size = 32, .slices = 96, .slices_used = 1}, context_, 4);
+      soak({.seed = 2, .size = 32, .slices = 96, .slices_used = 1}, context_, 6);
   EXPECT_GT(tally.checks.hits, tally.checks.rays / 5);
   EXPECT_GT(tally.pictures, 10U);
 }
@@ -72,16 +72,19 @@ TEST(SoakLegs, LeaveOpenGlOutWhereThereIsNone) {
 TEST(SoakVerdict, NoticesMemoryThatGrows) {
   const SoakPlan plan;
   SoakTally tally;
-  for (int i = 0; i < 10; ++i) tally.memory.push_back({.resident = 100'000, .in_use = 50'000});
+  const std::size_t rounds = plan.warm_up() + 9;
+  for (std::size_t i = 0; i < rounds; ++i) {
+    tally.memory.push_back({.resident = 100'000, .in_use = 50'000});
+  }
   EXPECT_TRUE(verdict(tally, plan).empty());
   // What the first round left behind is no drift.
   tally.memory.front() = {.resident = 10, .in_use = 10};
   EXPECT_TRUE(verdict(tally, plan).empty());
   SoakTally leaking = tally;
-  for (std::size_t i = 0; i < 10; ++i) leaking.memory[i].in_use += 100 * i;
+  for (std::size_t i = 0; i < rounds; ++i) leaking.memory[i].in_use += 100 * i;
   EXPECT_EQ(verdict(leaking, plan).size(), 2U);
   SoakTally swelling = tally;
-  for (std::size_t i = 0; i < 10; ++i) swelling.memory[i].resident += 1'000 * i;
+  for (std::size_t i = 0; i < rounds; ++i) swelling.memory[i].resident += 1'000 * i;
   EXPECT_EQ(verdict(swelling, plan).size(), 1U);
 }
 

@@ -40,18 +40,18 @@ void print_memory(const SoakTally& tally, const SoakPlan& plan) {
     fmt::print("after round {}: {:.3f} MiB in use, {:.1f} MiB resident{}\n", i + 1,
                static_cast<double>(tally.memory[i].in_use) / kMebibyte,
                static_cast<double>(tally.memory[i].resident) / kMebibyte,
-               i < plan.slices_used ? " (warm-up, not judged)" : "");
+               i < plan.warm_up() ? " (warm-up, not judged)" : "");
   }
-  if (tally.memory.size() < plan.slices_used + 2) {
+  if (tally.memory.size() < plan.warm_up() + 2) {
     fmt::print(
         "memory was not judged: that takes {} rounds, and {} were completed; run longer or "
         "with more --slices\n",
-        plan.slices_used + 2, tally.memory.size());
+        plan.warm_up() + 2, tally.memory.size());
     return;
   }
   std::vector<double> in_use;
   std::vector<double> resident;
-  for (std::size_t i = plan.slices_used; i < tally.memory.size(); ++i) {
+  for (std::size_t i = plan.warm_up(); i < tally.memory.size(); ++i) {
     in_use.push_back(static_cast<double>(tally.memory[i].in_use));
     resident.push_back(static_cast<double>(tally.memory[i].resident));
   }

@@ -27,6 +27,10 @@ struct SoakPlan {
   /// `slices_used`. So the whole product passes once in `slices` rounds where both are the same.
   std::size_t slices = 1;
   std::size_t slices_used = 1;
+
+  /// Rounds that memory is not judged by: each slice has to have come once, and the pools of
+  /// TBB's threads fill for four rounds or so, whoever comes to do what.
+  [[nodiscard]] std::size_t warm_up() const { return slices_used > 4 ? slices_used : 4; }
 };
 
 struct SoakTally {

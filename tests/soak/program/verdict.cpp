@@ -65,8 +65,8 @@ std::vector<std::string> verdict(const SoakTally& tally, const SoakPlan& plan) {
                                    tally.wrong_pictures, tally.pictures,
                                    tally.first_wrong_picture));
   }
-  if (tally.memory.size() >= plan.slices_used + 2) {
-    judge_memory(std::span(tally.memory).subspan(plan.slices_used), problems);
+  if (tally.memory.size() >= plan.warm_up() + 2) {
+    judge_memory(std::span(tally.memory).subspan(plan.warm_up()), problems);
   }
   return problems;
 }
