@@ -2,6 +2,21 @@
 
 #include "accel/simd/isa.h"
 
+#include <algorithm>
+#include <stdexcept>
+
+namespace encore::accel {
+
+/// Throws std::invalid_argument for an instruction set that is not among available_isas().
+inline void require(Isa isa) {
+  const auto& available = available_isas();
+  if (std::find(available.begin(), available.end(), isa) == available.end()) {
+    throw std::invalid_argument("this machine lacks the instruction set that was asked for");
+  }
+}
+
+}  // namespace encore::accel
+
 /// Declares `const Kernels& function()` of every instruction set, each from its own compilation of
 /// a file in accel/kernels.
 #if defined(__x86_64__)
