@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace encore::app {
@@ -68,6 +69,7 @@ struct GlfwCallbacks {
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int modifiers) {
       any(w);
       ImGui_ImplGlfw_MouseButtonCallback(w, button, action, modifiers);
+      window_of(w).pass_button(button, action == GLFW_PRESS);
     });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
       any(w);
@@ -209,11 +211,13 @@ void GlfwWindow::close() {
 }
 
 void GlfwWindow::wait_events(double seconds) {
+  wait_began_ = glfwGetTime();
   if (seconds > 0.0) {
     glfwWaitEventsTimeout(seconds);
   } else {
     glfwPollEvents();
   }
+  events_since_ = glfwGetTime();
 }
 
 void GlfwWindow::wake() {
@@ -233,9 +237,29 @@ void GlfwWindow::pass_key(const KeyEvent& event) {
   ImGui_ImplGlfw_KeyCallback(window_, event.key, event.code, event.action, event.modifiers);
 }
 
+void GlfwWindow::pass_button(int button, bool down) {
+  // Events that were there when the wait began are told at once; later ones as they come.
+  constexpr double kAtOnce = 0.002;
+  const double now = glfwGetTime();
+  const bool waited = now - wait_began_ < kAtOnce;
+  MouseClicks::Place place;
+  glfwGetCursorPos(window_, &place.x, &place.y);
+  clicks_.change(static_cast<std::size_t>(button), down, {waited ? events_since_ : now, now},
+                 place);
+}
+
+void GlfwWindow::tell_buttons() {
+  const MouseClicks::Buttons buttons = clicks_.next_frame();
+  ImGuiIO& io = ImGui::GetIO();
+  std::copy(buttons.down.begin(), buttons.down.end(), io.MouseDown);
+  io.MouseDoubleClickTime = buttons.double_click ? std::numeric_limits<float>::max() : 0.0F;
+  input_ = input_ || clicks_.more();
+}
+
 void GlfwWindow::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  tell_buttons();
   ImGui::NewFrame();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/window/mouse_clicks.h"
+
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -69,6 +71,8 @@ class GlfwWindow {
     int modifiers = 0;
   };
   void pass_key(const KeyEvent& event);
+  void pass_button(int button, bool down);
+  void tell_buttons();
   void set_icon();
   void watch_gl_errors();
   [[nodiscard]] std::vector<unsigned char> read_pixels() const;
@@ -78,6 +82,9 @@ class GlfwWindow {
   bool input_ = false;
   std::vector<int> pressed_;        ///< keys, since the last frame
   std::vector<KeyEvent> releases_;  ///< of those, to be told after the next frame
+  MouseClicks clicks_;
+  double events_since_ = 0.0;  ///< an event that waited came after this time
+  double wait_began_ = 0.0;
   unsigned gl_errors_ = 0;
   std::string first_gl_error_;
   std::string renderer_name_;
