@@ -1,6 +1,7 @@
 #include "app/power_sources.h"
 
 #include "app/exit_code.h"
+#include "app/model_constants.h"
 #include "energy/sources/choose_total.h"
 #include "energy/sources/csv_replay.h"
 #include "energy/sources/discover.h"
@@ -42,8 +43,7 @@ class Sensors {
 
 energy::PowerModel constants_of(const std::string& spec) {
   try {
-    const energy::ModelSpec model = energy::parse_model_spec(spec);
-    if (const auto* constants = std::get_if<energy::PowerModel>(&model)) return *constants;
+    if (const auto constants = model_constants(spec)) return *constants;
   } catch (const energy::PowerModelError& error) {
     throw UsageError(fmt::format("--model: {}", error.what()));
   }
@@ -212,18 +212,8 @@ PowerSources open_power_sources(const MeasuringOptions& options, const LiveBusyT
 }
 
 std::optional<energy::PerPhase<double>> phase_watts(const MeasuringOptions& options) {
-  if (options.model.empty()) return std::nullopt;
   try {
-    const energy::ModelSpec model = energy::parse_model_spec(options.model);
-    const auto* constants = std::get_if<energy::PowerModel>(&model);
-    if (constants == nullptr) return std::nullopt;
-    energy::PerPhase<double> watts{};
-    for (const energy::Phase phase : energy::kPhases) {
-      const std::optional<energy::Watts>& above_idle = constants->delta[phase];
-      if (!above_idle && phase != energy::Phase::animate) return std::nullopt;
-      if (above_idle) watts[phase] = above_idle->value;
-    }
-    return watts;
+    return phase_watts(model_constants(options.model));
   } catch (const energy::PowerModelError& error) {
     throw UsageError(fmt::format("--model: {}", error.what()));
   }

@@ -26,9 +26,7 @@ struct PowerSources {
 /// for a wrong name.
 PowerSources open_power_sources(const MeasuringOptions& options, const energy::LiveBusyTime& live);
 
-/// What a second of each phase costs above idle, in watts, where --model states it for every phase
-/// that a policy weighs (build, update, transfer, render); an animation that is not stated counts
-/// nothing, as no policy can change it. Throws UsageError for a faulty model.
+/// phase_watts() of what --model states. Throws UsageError for a faulty model.
 std::optional<energy::PerPhase<double>> phase_watts(const MeasuringOptions& options);
 
 /// Names of the total's sources: "rapl:package-0 + nvml:0".

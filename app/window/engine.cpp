@@ -1,6 +1,7 @@
 #include "app/window/engine.h"
 
 #include "app/device.h"
+#include "app/model_constants.h"
 #include "app/window/figures_view.h"
 #include "app/window/scene_preferences.h"
 #include "ui/layout.h"
@@ -238,6 +239,14 @@ std::pair<int, int> Engine::picture_size(std::size_t pane, const ui::UiState& st
   return size;
 }
 
+std::optional<energy::PerPhase<double>> Engine::policy_watts() const {
+  try {
+    return phase_watts(model_constants(monitor_->chosen().model));
+  } catch (const energy::PowerModelError&) {
+    return std::nullopt;  // whoever opens the model says what is wrong with it
+  }
+}
+
 PaneRequest Engine::request_of(std::size_t pane, const ui::UiState& state) const {
   const ui::PaneSettings& settings = state.settings.panes[pane];
   const PaneInput& input = inputs_[pane];
@@ -246,6 +255,7 @@ PaneRequest Engine::request_of(std::size_t pane, const ui::UiState& state) const
   request.device = device_of(settings.device);
   request.structure = settings.structure;
   request.policy = settings.policy;
+  if (settings.policy == accel::Policy::automatic) request.phase_watts = policy_watts();
   request.threads = settings.threads > 0 ? settings.threads : setup_.threads;
   request.rays = state.settings.rays;
   request.time_s = state.time_s;

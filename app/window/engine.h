@@ -70,6 +70,7 @@ class Engine {
   void apply_measuring(const ui::UiState& state);
   [[nodiscard]] std::pair<int, int> picture_size(std::size_t pane, const ui::UiState& state) const;
   [[nodiscard]] PaneRequest request_of(std::size_t pane, const ui::UiState& state) const;
+  [[nodiscard]] std::optional<energy::PerPhase<double>> policy_watts() const;
   void examine_sensors();
   void use_energy(const ui::EnergySettings& energy);
   void start_recording(const ui::UiState& state);

@@ -1,8 +1,8 @@
 #include "app/gpu_device.h"
+#include "app/model_constants.h"
 #include "app/ray_options.h"
 #include "app/window/engine.h"
 #include "app/window/picture_file.h"
-#include "energy/sources/model_spec.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include <string>
 #include <thread>
 #include <utility>
-#include <variant>
 
 namespace encore::app {
 
@@ -24,10 +23,8 @@ void choose_model(const MeasuringOptions& power, AccuracyRequest& request) {
   request.no_joules =
       "the frames are too short for sensors here; encore accuracy measures with them, and watts "
       "that are entered give modelled joules";
-  if (power.model.empty()) return;
   try {
-    const energy::ModelSpec spec = energy::parse_model_spec(power.model);
-    if (const auto* constants = std::get_if<energy::PowerModel>(&spec)) request.model = *constants;
+    request.model = model_constants(power.model);
   } catch (const energy::PowerModelError& error) {
     request.no_joules = error.what();
   }

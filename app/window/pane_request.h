@@ -2,6 +2,7 @@
 
 #include "accel/settings.h"
 #include "app/device.h"
+#include "energy/phase_log.h"
 #include "energy/provenance.h"
 #include "scene/camera.h"
 #include "scene/ray.h"
@@ -52,6 +53,8 @@ struct PaneRequest {
   std::optional<Device> device;               ///< nothing: the pane is off
   accel::StructureSpec structure;
   accel::Policy policy = accel::Policy::rebuild;
+  /// What Policy::automatic weighs seconds with: watts above idle, where they are stated.
+  std::optional<energy::PerPhase<double>> phase_watts;
   int threads = 0;
   scene::RaySettings rays;
   double time_s = 0.0;

@@ -239,6 +239,7 @@ void PaneTracer::prepare(const PaneRequest& request, energy::PhaseLog& log,
   policy_ = request.policy;
   use_scene(request);
   use_structure(request);
+  weigh(request);
   use_renderer(request);
   TriangleChange change = TriangleChange::none;
   if (triangles_->version == 0 || time_s_ != request.time_s) {
@@ -269,24 +270,31 @@ void PaneTracer::follow_forced(const PaneRequest& request, energy::PhaseLog& log
   learn(log, marks);
 }
 
+void PaneTracer::weigh(const PaneRequest& request) {
+  energy::PerPhase<double> weights;
+  weights.fill(1.0);
+  if (request.phase_watts) weights = *request.phase_watts;
+  if (weights == weights_) return;
+  weights_ = weights;
+  // Costs in another unit say nothing any more.
+  if (spec_) costs_ = accel::AutoPolicy(accel::auto_rule(spec_->settings));
+}
+
 void PaneTracer::learn(const energy::PhaseLog& log, std::size_t before) {
   if (!structure_ || policy_ != accel::Policy::automatic) return;
-  double transfer_s = 0.0;
-  std::optional<double> build_s;
-  std::optional<double> update_s;
+  energy::PerPhase<double> cost{};
+  energy::PerPhase<bool> done{};
   for (const energy::PhaseSpan& span : log.spans().subspan(before)) {
-    const double seconds = (span.end - span.start).value;
-    if (span.phase == Phase::transfer) transfer_s += seconds;
-    if (span.phase == Phase::build) build_s = build_s.value_or(0.0) + seconds;
-    if (span.phase == Phase::update) update_s = update_s.value_or(0.0) + seconds;
+    cost[span.phase] += weights_[span.phase] * (span.end - span.start).value;
+    done[span.phase] = true;
   }
-  if (build_s) costs_.observe_build(*build_s + transfer_s);
-  if (update_s) costs_.observe_update(*update_s + transfer_s);
+  if (done[Phase::build]) costs_.observe_build(cost[Phase::build] + cost[Phase::transfer]);
+  if (done[Phase::update]) costs_.observe_update(cost[Phase::update] + cost[Phase::transfer]);
 }
 
 void PaneTracer::learn_frame(double render_s) {
   if (!structure_ || policy_ != accel::Policy::automatic) return;
-  costs_.observe_frame(render_s, structure_->assessed_cost());
+  costs_.observe_frame(weights_[Phase::render] * render_s, structure_->assessed_cost());
 }
 
 std::optional<double> PaneTracer::break_even_frames() const {

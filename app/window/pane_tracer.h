@@ -89,6 +89,7 @@ class PaneTracer {
   void build(const PaneRequest& request, energy::PhaseLog& log, accel::BuildWatch* watch);
   void update(const PaneRequest& request, energy::PhaseLog& log);
   void send(energy::PhaseLog& log);
+  void weigh(const PaneRequest& request);
   void learn(const energy::PhaseLog& log, std::size_t before);
   [[nodiscard]] bool fits_on_device(const PaneRequest& request) const;
 
@@ -99,7 +100,8 @@ class PaneTracer {
   std::optional<accel::StructureSpec> spec_;  ///< of structure_
   std::unique_ptr<accel::AccelerationStructure> structure_;
   bool built_ = false;
-  accel::AutoPolicy costs_;                        ///< in seconds, of structure_
+  accel::AutoPolicy costs_;                        ///< of structure_: seconds times weights_
+  energy::PerPhase<double> weights_{};             ///< all 1, or watts
   accel::Policy policy_ = accel::Policy::rebuild;  ///< of the last prepare()
   std::uint64_t rebuild_ = 0;                      ///< the request's, when it was built
   std::size_t built_over_ = 0;

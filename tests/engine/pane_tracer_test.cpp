@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 namespace encore::app {
 namespace {
@@ -65,6 +67,33 @@ TEST_F(PaneTracerTest, AMovingSceneFollowsItsPolicy) {
   request.policy = accel::Policy::fixed;
   request.time_s = 0.5;
   EXPECT_EQ(prepare(request), Phases{energy::Phase::animate});
+}
+
+TEST_F(PaneTracerTest, PolicyAutoWeighsSecondsWithWattsWhereTheyAreStated) {
+  // Whatever the seconds of this machine: one of the two is dearer by far in joules.
+  for (const bool dear_build : {false, true}) {
+    PaneRequest request = request_for("wave");
+    request.structure = accel::default_spec(accel::StructureKind::bvh_median);
+    request.policy = accel::Policy::automatic;
+    energy::PerPhase<double> watts;
+    watts.fill(1.0);
+    watts[energy::Phase::build] = dear_build ? 1e9 : 1e-9;
+    watts[energy::Phase::update] = dear_build ? 1e-9 : 1e9;
+    request.phase_watts = watts;
+    int builds = 0;
+    int updates = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+      request.time_s = 0.05 * frame;
+      const Phases phases = prepare(request);
+      tracer_.learn_frame(0.01);
+      if (frame < 10) continue;  // what it costs is learned first
+      builds += static_cast<int>(std::count(phases.begin(), phases.end(), energy::Phase::build));
+      updates += static_cast<int>(std::count(phases.begin(), phases.end(), energy::Phase::update));
+    }
+    EXPECT_EQ(dear_build ? updates : builds, 30);
+    EXPECT_EQ(dear_build ? builds : updates, 0);
+    tracer_.clear();
+  }
 }
 
 TEST_F(PaneTracerTest, ContentChangesWithTimeButNotWithTheStructure) {

@@ -158,7 +158,8 @@ std::vector<Row> shape_rows() {
        [](const PaneView& pane) { return pane.sah_decay; }, real_text},
       {"break_even", "build pays after",
        "Policy auto: frames in which a build now would have paid for itself, by what building, "
-       "updating and tracing were seen to cost in this pane.",
+       "updating and tracing were seen to cost in this pane: in joules where the watts of each "
+       "phase are stated (--model), else in time.",
        [](const PaneView& pane) { return pane.break_even_frames; }, real_text},
       {"pane_memory", "memory of the pane",
        "Triangles, structure and pictures of this pane together; 1 KiB = 1024 bytes.",
