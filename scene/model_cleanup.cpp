@@ -23,18 +23,19 @@ void gather(std::vector<Value>& values, const std::vector<std::uint32_t>& kept) 
 }
 
 void remove_unused_vertices(Mesh& mesh) {
-  // Mark what the triangles use, then number it in the old order.
+  // Mark what the triangles use; most files use all.
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
+  for (const glm::uvec3& t : mesh.triangles) used[t.x] = used[t.y] = used[t.z] = 1;
+  if (std::find(used.begin(), used.end(), 0) == used.end()) return;
+
+  // Then number them in the old order.
   std::vector<std::uint32_t> new_index(mesh.positions.size(), kNoVertex);
-  for (const glm::uvec3& t : mesh.triangles) {
-    for (int corner = 0; corner < 3; ++corner) new_index[t[corner]] = 0;
-  }
   std::vector<std::uint32_t> kept;
-  for (std::size_t i = 0; i < new_index.size(); ++i) {
-    if (new_index[i] == kNoVertex) continue;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] == 0) continue;
     new_index[i] = static_cast<std::uint32_t>(kept.size());
     kept.push_back(static_cast<std::uint32_t>(i));
   }
-  if (kept.size() == mesh.positions.size()) return;
 
   for (glm::uvec3& t : mesh.triangles) {
     for (int corner = 0; corner < 3; ++corner) t[corner] = new_index[t[corner]];

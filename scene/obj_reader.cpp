@@ -60,10 +60,14 @@ class ObjContent : public ObjLineFeed {
 
  private:
   void on_other(std::string_view keyword, std::string_view arguments) override;
+  void on_numbers(std::string_view keyword) override;
+  void on_plain_face(std::span<const ObjCorner> corners) override;
   void on_vertex();
   void on_normal();
   void on_texcoord();
   void on_face(const tinyobj::index_t* corners, int count);
+  void add_corner(int position, int texcoord, int normal);
+  void add_face(std::size_t corners);
   std::size_t read_numbers(std::span<float> values);
   std::string place() const { return source_ + ":" + std::to_string(line()); }
   void make_vertices(Mesh& mesh, std::vector<std::uint32_t>& corner_vertices);
@@ -93,6 +97,10 @@ std::size_t ObjContent::read_numbers(std::span<float> values) {
   std::string_view rest = arguments();
   std::size_t count = 0;
   while (count < values.size()) {
+    if (take_plain_number(rest, values[count])) {
+      ++count;
+      continue;
+    }
     const std::string_view token = take_token(rest);
     if (token.empty() || token.front() == '#') break;
     if (!parse_number(token, values[count])) {
@@ -142,18 +150,41 @@ std::uint32_t resolve(int index, std::size_t count) {
   return from_start >= 0 ? static_cast<std::uint32_t>(from_start) : kBad;
 }
 
-void ObjContent::on_face(const tinyobj::index_t* corners, int count) {
+void ObjContent::add_corner(int position, int texcoord, int normal) {
+  Corner corner;
+  corner.position = resolve(position, positions_.size());
+  corner.normal = resolve(normal, normals_.size());
+  corner.texcoord = resolve(texcoord, texcoords_.size());
+  corners_.push_back(corner);
+}
+
+void ObjContent::add_face(std::size_t corners) {
   ++statements_;
   // Faces before the first usemtl get a material of their own, without a name.
   if (!material_) material_ = materials_.use("", place());
-  for (int i = 0; i < count; ++i) {
-    Corner corner;
-    corner.position = resolve(corners[i].vertex_index, positions_.size());
-    corner.normal = resolve(corners[i].normal_index, normals_.size());
-    corner.texcoord = resolve(corners[i].texcoord_index, texcoords_.size());
-    corners_.push_back(corner);
+  faces_.push_back({static_cast<std::uint32_t>(corners), *material_, line()});
+}
+
+void ObjContent::on_face(const tinyobj::index_t* corners, int count) {
+  add_face(static_cast<std::size_t>(count));
+  for (const tinyobj::index_t& c : std::span(corners, static_cast<std::size_t>(count))) {
+    add_corner(c.vertex_index, c.texcoord_index, c.normal_index);
   }
-  faces_.push_back({static_cast<std::uint32_t>(count), *material_, line()});
+}
+
+void ObjContent::on_plain_face(std::span<const ObjCorner> corners) {
+  add_face(corners.size());
+  for (const ObjCorner& c : corners) add_corner(c.position, c.texcoord, c.normal);
+}
+
+void ObjContent::on_numbers(std::string_view keyword) {
+  if (keyword == "v") {
+    on_vertex();
+  } else if (keyword == "vn") {
+    on_normal();
+  } else {
+    on_texcoord();
+  }
 }
 
 void ObjContent::on_other(std::string_view keyword, std::string_view arguments) {
@@ -171,15 +202,6 @@ void ObjContent::on_other(std::string_view keyword, std::string_view arguments) 
 
 void ObjContent::parse() {
   tinyobj::callback_t callbacks;
-  callbacks.vertex_cb = [](void* self, float, float, float, float) {
-    static_cast<ObjContent*>(self)->on_vertex();
-  };
-  callbacks.normal_cb = [](void* self, float, float, float) {
-    static_cast<ObjContent*>(self)->on_normal();
-  };
-  callbacks.texcoord_cb = [](void* self, float, float, float) {
-    static_cast<ObjContent*>(self)->on_texcoord();
-  };
   callbacks.index_cb = [](void* self, tinyobj::index_t* corners, int count) {
     static_cast<ObjContent*>(self)->on_face(corners, count);
   };

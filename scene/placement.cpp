@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace encore::scene {
 namespace {
@@ -68,13 +70,15 @@ Bounds bounds_of_used(const Mesh& mesh, std::span<const glm::vec3> positions) {
 }
 
 Bounds bounds_under(const Mesh& mesh, const glm::mat4& transform) {
+  // Once a vertex, not once a corner: there are six corners to a vertex.
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
+  for (const glm::uvec3& t : mesh.triangles) used[t.x] = used[t.y] = used[t.z] = 1;
   const PointTransform to_world(transform);
   Bounds b;
-  for (const glm::uvec3& t : mesh.triangles) {
-    for (int corner = 0; corner < 3; ++corner) {
-      const glm::vec3 p = to_world(mesh.positions[t[corner]]);
-      if (is_finite(p)) b.extend(p);
-    }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] == 0) continue;
+    const glm::vec3 p = to_world(mesh.positions[i]);
+    if (is_finite(p)) b.extend(p);
   }
   return b;
 }

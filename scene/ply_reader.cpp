@@ -3,84 +3,31 @@
 #include "scene/load_watch.h"
 #include "scene/model_cleanup.h"
 #include "scene/model_input.h"
+#include "scene/ply_reader_faces.h"
 #include "scene/ply_reader_values.h"
+#include "scene/ply_reader_vertices.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <new>
-#include <span>
+#include <optional>
 #include <vector>
 
 namespace encore::scene {
 
 namespace {
 
-// Where a vertex property goes; the numbers index a row of floats.
-enum Slot { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kRed, kGreen, kBlue, kU, kV, kSlots };
-constexpr int kSkip = -1;
-
 // Values of one list between two looks at whether the loading is to end.
 constexpr std::uint64_t kLongList = 1U << 17U;
 
-struct SlotName {
-  std::string_view name;
-  Slot slot;
-};
-constexpr SlotName kSlotNames[] = {{"x", kX},
-                                   {"y", kY},
-                                   {"z", kZ},
-                                   {"nx", kNormalX},
-                                   {"ny", kNormalY},
-                                   {"nz", kNormalZ},
-                                   {"red", kRed},
-                                   {"green", kGreen},
-                                   {"blue", kBlue},
-                                   {"r", kRed},
-                                   {"g", kGreen},
-                                   {"b", kBlue},
-                                   {"diffuse_red", kRed},
-                                   {"diffuse_green", kGreen},
-                                   {"diffuse_blue", kBlue},
-                                   {"u", kU},
-                                   {"v", kV},
-                                   {"s", kU},
-                                   {"t", kV},
-                                   {"texture_u", kU},
-                                   {"texture_v", kV}};
+// Rows between two looks.
+constexpr std::uint64_t kRowsAtOnce = 4096;
 
-int slot_of(const PlyProperty& property) {
-  if (property.is_list) return kSkip;
-  for (const SlotName& known : kSlotNames) {
-    if (known.name == property.name) return known.slot;
-  }
-  return kSkip;
-}
-
-// Colours of whole-number types count from 0 to the largest value, others from 0 to 1.
-double color_scale(PlyType type) {
-  switch (type) {
-    case PlyType::int8:
-      return 1.0 / 127.0;
-    case PlyType::uint8:
-      return 1.0 / 255.0;
-    case PlyType::int16:
-      return 1.0 / 32767.0;
-    case PlyType::uint16:
-      return 1.0 / 65535.0;
-    case PlyType::int32:
-      return 1.0 / 2147483647.0;
-    case PlyType::uint32:
-      return 1.0 / 4294967295.0;
-    default:
-      return 1.0;
-  }
-}
+constexpr int kSkip = -1;
 
 std::uint32_t as_index(double value) {
-  const bool whole = value >= 0.0 && value < 4294967295.0 && value == std::floor(value);
-  return whole ? static_cast<std::uint32_t>(value) : kNoVertex;
+  if (!(value >= 0.0 && value < 4294967295.0)) return kNoVertex;
+  const auto index = static_cast<std::uint32_t>(value);
+  return static_cast<double>(index) == value ? index : kNoVertex;
 }
 
 // The list with the corners: by its usual names, else the only list there is.
@@ -97,6 +44,23 @@ int corner_list(const PlyElement& element) {
     ++lists;
   }
   return lists == 1 ? only : kSkip;
+}
+
+// What faces have around the only list that they may have; nothing if there are several.
+std::optional<PlyFaceShape> face_shape(const PlyElement& element, int list) {
+  PlyFaceShape shape;
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const PlyProperty& property = element.properties[i];
+    if (static_cast<int>(i) == list) {
+      shape.count_type = property.count_type;
+      shape.corner_type = property.type;
+    } else if (property.is_list) {
+      return std::nullopt;
+    } else {
+      (static_cast<int>(i) < list ? shape.before : shape.behind) += ply_size(property.type);
+    }
+  }
+  return shape;
 }
 
 template <typename Values>
@@ -144,12 +108,14 @@ class PlyContent {
 
   std::uint64_t list_length(const PlyProperty& property) {
     const double length = values_.read(property.count_type);
-    if (!(length >= 0.0) || length != std::floor(length) || length > 4294967295.0 ||
-        !values_.can_hold(static_cast<std::uint64_t>(length), ply_size(property.type))) {
+    const bool in_range = length >= 0.0 && length <= 4294967295.0;
+    const std::uint64_t whole = in_range ? static_cast<std::uint64_t>(length) : 0;
+    if (!in_range || static_cast<double>(whole) != length ||
+        !values_.can_hold(whole, ply_size(property.type))) {
       throw InputError(values_.place() + ": a list in the data has a length that the file cannot " +
                        "hold; it is truncated or damaged, get a whole copy");
     }
-    return static_cast<std::uint64_t>(length);
+    return whole;
   }
 
   void skip(const PlyProperty& property) {
@@ -169,53 +135,41 @@ class PlyContent {
   }
 
   void read_vertices(const PlyElement& element) {
-    // Decide once where each property goes and what it is multiplied by.
-    std::array<bool, kSlots> has{};
-    std::vector<int> slots;
-    std::vector<double> scales;
-    for (const PlyProperty& property : element.properties) {
-      const int slot = slot_of(property);
-      slots.push_back(slot);
-      scales.push_back(slot >= kRed && slot <= kBlue ? color_scale(property.type) : 1.0);
-      if (slot != kSkip) has[static_cast<std::size_t>(slot)] = true;
-    }
-    if (element.count > 0 && !(has[kX] && has[kY] && has[kZ])) {
+    const PlyVertexLayout layout = ply_vertex_layout(element);
+    if (element.count > 0 && !layout.positions) {
       throw InputError(name_ + ": the vertices have no x, y and z; export the model anew");
     }
     if (element.count >= kNoVertex) {
       throw InputError(name_ + ": more vertices than 32-bit indices can name; split the model");
     }
-    const bool normals = has[kNormalX] && has[kNormalY] && has[kNormalZ];
-    const bool colors = has[kRed] && has[kGreen] && has[kBlue];
-    const bool texcoords = has[kU] && has[kV];
-
     if (element.properties.empty()) return;
     mesh_.positions.reserve(element.count);
+    if constexpr (Values::kHasRows) {
+      if (!layout.has_lists) return read_rows(element, layout);
+    }
     for (std::uint64_t i = 0; i < element.count; ++i) {
       report_load(i, element.count);
-      std::array<float, kSlots> row{};
+      PlyRow row{};
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
-        if (slots[p] == kSkip) {
+        const PlyColumn& column = layout.columns[p];
+        if (column.slot == kPlySkip) {
           skip(element.properties[p]);
         } else {
-          const double value = values_.read(element.properties[p].type) * scales[p];
-          row[static_cast<std::size_t>(slots[p])] = to_float(value);
+          const double value = values_.read(column.type) * column.scale;
+          row[static_cast<std::size_t>(column.slot)] = ply_float(value);
         }
       }
-      mesh_.positions.emplace_back(row[kX], row[kY], row[kZ]);
-      if (normals) mesh_.normals.emplace_back(row[kNormalX], row[kNormalY], row[kNormalZ]);
-      if (colors) mesh_.colors.emplace_back(row[kRed], row[kGreen], row[kBlue]);
-      if (texcoords) mesh_.texcoords.emplace_back(row[kU], row[kV]);
+      add_ply_vertex(row, layout, mesh_);
     }
   }
 
-  // A double beyond the range of floats is infinite as a float, which drops its triangles.
-  static float to_float(double value) {
-    if (std::abs(value) > 3.4028235677973366e38) {
-      return value > 0.0 ? std::numeric_limits<float>::infinity()
-                         : -std::numeric_limits<float>::infinity();
+  // check_size has seen that all rows are there.
+  void read_rows(const PlyElement& element, const PlyVertexLayout& layout) {
+    for (std::uint64_t i = 0; i < element.count; i += kRowsAtOnce) {
+      report_load(i, element.count);
+      const std::uint64_t rows = std::min(kRowsAtOnce, element.count - i);
+      add_ply_rows(values_.take_rows(rows * layout.row_bytes), layout, values_.swapped(), mesh_);
     }
-    return static_cast<float>(value);
   }
 
   void read_corners(const PlyElement& element, bool strips) {
@@ -227,53 +181,65 @@ class PlyContent {
       skip(element);
       return;
     }
-    std::vector<std::uint32_t> corners;
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      report_load(i, element.count);
-      for (std::size_t p = 0; p < element.properties.size(); ++p) {
-        const PlyProperty& property = element.properties[p];
-        if (static_cast<int>(p) != list) {
-          skip(property);
-          continue;
-        }
-        const std::uint64_t length = list_length(property);
-        corners.clear();
-        for (std::uint64_t k = 0; k < length; ++k) {
-          if (k % kLongList == kLongList - 1) check_load();
-          const double value = values_.read(property.type);
-          // -1 ends a strip within the list; the next one starts to turn left anew.
-          if (strips && value == -1.0) {
-            add_strip(corners);
-            corners.clear();
-          } else {
-            corners.push_back(as_index(value));
-          }
-        }
-        if (strips) {
-          add_strip(corners);
-        } else {
-          add_face(corners);
-        }
+    const std::optional<PlyFaceShape> shape = strips ? std::nullopt : face_shape(element, list);
+    if (shape) expect_triangles(element.count, *shape);
+    for (std::uint64_t i = 0; i < element.count;) {
+      if (i % kRowsAtOnce == 0) report_load(i, element.count);
+      if (shape) {
+        const std::uint64_t triangles = take_triangles(*shape, i, element.count);
+        i += triangles;
+        if (triangles > 0) continue;
       }
+      read_face(element, list, strips);
+      ++i;
     }
   }
 
-  void add_face(std::span<const std::uint32_t> corners) {
-    corners_.insert(corners_.end(), corners.begin(), corners.end());
-    sizes_.push_back(static_cast<std::uint32_t>(corners.size()));
+  // Room for that many triangles if the file can hold them.
+  void expect_triangles(std::uint64_t count, const PlyFaceShape& shape) {
+    const bool ascii = header_.format == PlyFormat::ascii;
+    const std::size_t bytes = ply_size(shape.count_type) + 3 * ply_size(shape.corner_type);
+    std::vector<glm::uvec3>* const triangles = faces_.triangles_only();
+    if (triangles != nullptr && values_.can_hold(ascii ? 4 * count : count, bytes)) {
+      triangles->reserve(triangles->size() + count);
+    }
   }
 
-  // Every second triangle of a strip turns the other way. Triangles with a repeated corner only
-  // stitch strips together.
-  void add_strip(std::span<const std::uint32_t> strip) {
-    for (std::size_t i = 2; i < strip.size(); ++i) {
-      const bool odd = i % 2 == 1;
-      const std::uint32_t a = strip[i - (odd ? 1 : 2)];
-      const std::uint32_t b = strip[i - (odd ? 2 : 1)];
-      const std::uint32_t c = strip[i];
-      if (a == b || b == c || c == a) continue;
-      const std::uint32_t triangle[] = {a, b, c};
-      add_face(triangle);
+  // As many triangles at once as lie before the next report.
+  std::uint64_t take_triangles(const PlyFaceShape& shape, std::uint64_t face, std::uint64_t count) {
+    if constexpr (Values::kHasRows) {
+      std::vector<glm::uvec3>* const triangles = faces_.triangles_only();
+      const std::uint64_t most = std::min(kRowsAtOnce - face % kRowsAtOnce, count - face);
+      if (triangles != nullptr) return values_.take_triangles(shape, most, *triangles);
+    }
+    return 0;
+  }
+
+  void read_face(const PlyElement& element, int list, bool strips) {
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const PlyProperty& property = element.properties[p];
+      if (static_cast<int>(p) != list) {
+        skip(property);
+        continue;
+      }
+      const std::uint64_t length = list_length(property);
+      corners_.clear();
+      for (std::uint64_t k = 0; k < length; ++k) {
+        if (k % kLongList == kLongList - 1) check_load();
+        const double value = values_.read(property.type);
+        // -1 ends a strip within the list; the next one starts to turn left anew.
+        if (strips && value == -1.0) {
+          faces_.add_strip(corners_);
+          corners_.clear();
+        } else {
+          corners_.push_back(as_index(value));
+        }
+      }
+      if (strips) {
+        faces_.add_strip(corners_);
+      } else {
+        faces_.add(corners_);
+      }
     }
   }
 
@@ -287,17 +253,10 @@ class PlyContent {
     }
     const std::uint64_t vertices = mesh_.positions.size();
     model.mesh = std::move(mesh_);
-    PolygonAssembler assembler(model.mesh);
-    model.mesh.triangles.reserve(sizes_.size());
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < sizes_.size(); ++i) {
-      report_load(i, sizes_.size());
-      assembler.add(std::span(corners_).subspan(first, sizes_[i]), 0,
-                    [i] { return ": face " + std::to_string(i); });
-      first += sizes_[i];
-    }
-    if (sizes_.empty()) assembler.dropped.points = vertices;
-    finish_model(model, name_, assembler.dropped);
+    const bool faces = !faces_.empty();
+    Dropped dropped = faces_.assemble(model.mesh);
+    if (!faces) dropped.points = vertices;
+    finish_model(model, name_, dropped);
     return model;
   }
 
@@ -306,8 +265,8 @@ class PlyContent {
   const std::string& name_;
   Mesh mesh_;
   Warnings warnings_;
-  std::vector<std::uint32_t> corners_;
-  std::vector<std::uint32_t> sizes_;
+  PlyFaces faces_;
+  std::vector<std::uint32_t> corners_;  // of the present face
 };
 
 }  // namespace

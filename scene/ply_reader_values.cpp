@@ -3,10 +3,11 @@
 #include "scene/diagnostics.h"
 #include "scene/model_input.h"
 #include "scene/model_number.h"
+#include "scene/ply_reader_bytes.h"
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
+#include <span>
 
 namespace encore::scene {
 
@@ -17,12 +18,43 @@ namespace {
                    "copy of it");
 }
 
+// Faces lie `step` bytes apart; `at` is the first one's list. Returns how many of them have three
+// corners before another one comes.
+template <typename Count, bool swap>
+std::size_t load_triangles(const char* at, std::size_t step, std::span<glm::uvec3> triangles) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (load_bytes<Count, swap>(at) != 3) return i;
+    for (int k = 0; k < 3; ++k) {
+      triangles[i][k] = load_bytes<std::uint32_t, swap>(at + sizeof(Count) + 4 * k);
+    }
+    at += step;
+  }
+  return triangles.size();
+}
+
+void mark_negative(std::span<glm::uvec3> triangles) {
+  for (glm::uvec3& t : triangles) {
+    for (int k = 0; k < 3; ++k) t[k] |= 0U - (t[k] >> 31U);
+  }
+}
+
 }  // namespace
 
 PlyAsciiValues::PlyAsciiValues(std::string_view file, std::size_t begin, const std::string& name)
     : file_(file), rest_(file.substr(begin)), name_(name) {}
 
 double PlyAsciiValues::read(PlyType type) {
+  if (type == PlyType::float32) {
+    float value = 0.0F;
+    if (take_plain_number(rest_, value)) return value;
+  } else {
+    double value = 0.0;
+    if (take_plain_number(rest_, value)) return value;
+  }
+  return read_unusual(type);
+}
+
+double PlyAsciiValues::read_unusual(PlyType type) {
   const std::string_view token = take_token(rest_);
   if (token.empty()) fail_truncated(place());
   if (type == PlyType::float32) {
@@ -64,11 +96,8 @@ PlyBinaryValues::PlyBinaryValues(std::string_view file, std::size_t begin, bool 
 template <typename Value>
 double PlyBinaryValues::load() {
   if (rest_.size() < sizeof(Value)) fail_truncated(place());
-  char bytes[sizeof(Value)];
-  std::memcpy(bytes, rest_.data(), sizeof(Value));
-  if (swap_) std::reverse(bytes, bytes + sizeof(Value));
-  Value value;
-  std::memcpy(&value, bytes, sizeof(Value));
+  const Value value =
+      swap_ ? load_bytes<Value, true>(rest_.data()) : load_bytes<Value, false>(rest_.data());
   rest_.remove_prefix(sizeof(Value));
   return static_cast<double>(value);
 }
@@ -97,6 +126,39 @@ double PlyBinaryValues::read(PlyType type) {
 
 bool PlyBinaryValues::can_hold(std::uint64_t values, std::size_t bytes_each) const {
   return values <= rest_.size() / std::max<std::size_t>(bytes_each, 1);
+}
+
+std::string_view PlyBinaryValues::take_rows(std::size_t bytes) {
+  const std::string_view rows = rest_.substr(0, bytes);
+  rest_.remove_prefix(rows.size());
+  return rows;
+}
+
+std::uint64_t PlyBinaryValues::take_triangles(const PlyFaceShape& shape, std::uint64_t most,
+                                              std::vector<glm::uvec3>& triangles) {
+  const std::size_t count_size = ply_size(shape.count_type);
+  const bool counts = shape.count_type == PlyType::uint8 || shape.count_type == PlyType::int8 ||
+                      shape.count_type == PlyType::uint32 || shape.count_type == PlyType::int32;
+  const bool is_signed = shape.corner_type == PlyType::int32;
+  if (!counts || (!is_signed && shape.corner_type != PlyType::uint32)) return 0;
+
+  const std::size_t step = shape.before + count_size + sizeof(glm::uvec3) + shape.behind;
+  const std::size_t old = triangles.size();
+  triangles.resize(old + std::min<std::uint64_t>(most, rest_.size() / step));
+  const std::span<glm::uvec3> fresh = std::span(triangles).subspan(old);
+  const char* const at = rest_.data() + shape.before;
+  std::size_t got = 0;
+  if (count_size == 1) {
+    got = swap_ ? load_triangles<std::uint8_t, true>(at, step, fresh)
+                : load_triangles<std::uint8_t, false>(at, step, fresh);
+  } else {
+    got = swap_ ? load_triangles<std::uint32_t, true>(at, step, fresh)
+                : load_triangles<std::uint32_t, false>(at, step, fresh);
+  }
+  if (is_signed) mark_negative(fresh.first(got));
+  triangles.resize(old + got);
+  rest_.remove_prefix(got * step);
+  return got;
 }
 
 std::string PlyBinaryValues::place() const {

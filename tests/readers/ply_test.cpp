@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 namespace encore::scene {
 namespace {
@@ -166,6 +168,100 @@ TEST(PlyReader, HeaderErrorsNameTheLine) {
                        "test.ply:9: the data begins without an end_header"));
   EXPECT_TRUE(contains(error_of([&] { read(replaced(good, "1 1 0", "1 l 0")); }),
                        "test.ply:12: \"l\" stands where a number must be"));
+}
+
+// How a binary file may lay out its vertices and faces.
+struct Layout {
+  bool big = false;
+  bool wide_counts = false;    // int instead of uchar
+  bool short_corners = false;  // ushort instead of int
+  bool extras = false;         // colours behind the positions, a flag before, a weight behind faces
+  bool doubles = false;        // coordinates
+};
+
+constexpr int kGrid = 70;  // more than one block of rows
+
+// A sheet of squares, each of two triangles; every `quads`th square is one face of four corners.
+// Both as text and as `layout` says.
+std::pair<std::string, std::string> sheet(const Layout& layout, int quads, int bad_face) {
+  const std::string real = layout.doubles ? "double" : "float";
+  std::string vertices =
+      "property " + real + " x\nproperty " + real + " y\nproperty " + real + " z\n";
+  if (layout.extras) vertices += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  std::string list = std::string("property list ") + (layout.wide_counts ? "int " : "uchar ") +
+                     (layout.short_corners ? "ushort" : "int") + " vertex_indices\n";
+  if (layout.extras) list = "property uchar flag\n" + list + "property short weight\n";
+  std::string text;
+  std::string data;
+  const auto put = [&](auto value) {
+    text += std::to_string(value) + " ";
+    data += packed(value, layout.big);
+  };
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    for (const int v : {i % kGrid, i / kGrid, i % 7}) {
+      const float quarter = 0.25F * static_cast<float>(v);
+      layout.doubles ? put(static_cast<double>(quarter)) : put(quarter);
+    }
+    for (int k = 0; layout.extras && k < 3; ++k) put(static_cast<std::uint8_t>(i * (k + 3)));
+  }
+  int faces = 0;
+  const auto face = [&](std::vector<int> corners) {
+    if (++faces == bad_face) corners[1] = layout.short_corners ? 60000 : -5;
+    if (layout.extras) put(static_cast<std::uint8_t>(9));
+    const int count = static_cast<int>(corners.size());
+    layout.wide_counts ? put(count) : put(static_cast<std::uint8_t>(count));
+    for (const int c : corners) layout.short_corners ? put(static_cast<std::uint16_t>(c)) : put(c);
+    if (layout.extras) put(static_cast<std::int16_t>(-3));
+  };
+  for (int i = 0; i + kGrid < kGrid * kGrid; ++i) {
+    if (i % kGrid == kGrid - 1) continue;
+    if (quads != 0 && i % quads == quads - 1) {
+      face({i, i + 1, i + kGrid + 1, i + kGrid});
+    } else {
+      face({i, i + 1, i + kGrid});
+      face({i + 1, i + kGrid + 1, i + kGrid});
+    }
+  }
+  const std::string rest = " 1.0\nelement vertex " + std::to_string(kGrid * kGrid) + "\n" +
+                           vertices + "element face " + std::to_string(faces) + "\n" + list +
+                           "end_header\n";
+  const std::string format = layout.big ? "binary_big_endian" : "binary_little_endian";
+  return {"ply\nformat ascii" + rest + text, "ply\nformat " + format + rest + data};
+}
+
+void expect_same(const Model& a, const Model& b) {
+  EXPECT_EQ(a.mesh.positions, b.mesh.positions);
+  EXPECT_EQ(a.mesh.colors, b.mesh.colors);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  EXPECT_EQ(a.mesh.material_of, b.mesh.material_of);
+  EXPECT_EQ(a.warnings.messages, b.warnings.messages);
+}
+
+// Rows read at once against the same numbers read one by one.
+TEST(PlyReader, EveryLayoutGivesWhatTextGives) {
+  for (int bits = 0; bits < 32; ++bits) {
+    const Layout layout{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0,
+                        (bits & 16) != 0};
+    for (const int quads : {0, 1000, 3}) {
+      for (const int bad_face : {0, 5000}) {
+        const auto [text, binary] = sheet(layout, quads, bad_face);
+        const Model model = read(binary);
+        const std::size_t dropped = bad_face == 0 ? 0 : 1;
+        ASSERT_GE(model.mesh.triangles.size() + 2 * dropped, 2U * (kGrid - 1) * (kGrid - 1));
+        EXPECT_EQ(warns(model, "face 4999: "), dropped == 1) << bits << " " << quads;
+        expect_same(read(text), model);
+      }
+    }
+  }
+}
+
+TEST(PlyReader, TruncationIsTheSameErrorInABlockOfRows) {
+  const std::string whole = sheet({}, 0, 0).second;
+  // The last face has 12 bytes of corners behind its length.
+  const std::string face_cut = error_of([&] { read(whole.substr(0, whole.size() - 5)); });
+  EXPECT_TRUE(
+      contains(face_cut, "at byte " + std::to_string(whole.size() - 12) + ": a list in the data"))
+      << face_cut;
 }
 
 }  // namespace
