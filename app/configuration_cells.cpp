@@ -57,6 +57,7 @@ ConfigurationCells::ConfigurationCells(const std::vector<energy::SummaryRow>& ro
       memory_(differs(rows, "memory", "pool")),
       presets_(differs(rows, "preset", "balanced")),
       groupings_(differs(rows, "grouping", "packets")),
+      places_(varies(rows, "build_on")),
       cases_(differs(rows, "update_case", "real")),
       intersections_(varies(rows, "intersection")),
       rays_(varies(rows, "rays")),
@@ -66,7 +67,7 @@ ConfigurationCells::ConfigurationCells(const std::vector<energy::SummaryRow>& ro
 void ConfigurationCells::add_columns(TextTable& table) {
   for (const char* title :
        {"group", "scene", "device", "test", "structure", "policy", "case", "memory", "preset",
-        "intersection", "grouping", "rays", "samples", "size", "repeat"}) {
+        "built on", "intersection", "grouping", "rays", "samples", "size", "repeat"}) {
     table.add_column(title, TextTable::Align::left);
   }
 }
@@ -86,6 +87,7 @@ std::vector<std::string> ConfigurationCells::cells(
           value("update_case", cases_),
           value("memory", memory_),
           value("preset", presets_),
+          value("build_on", places_),
           value("intersection", intersections_),
           value("grouping", groupings_),
           value("rays", rays_),

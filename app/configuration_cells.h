@@ -25,6 +25,7 @@ class ConfigurationCells {
   bool memory_;
   bool presets_;
   bool groupings_;
+  bool places_;
   bool cases_;
   bool intersections_;
   bool rays_;

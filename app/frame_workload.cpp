@@ -108,7 +108,11 @@ void FrameWorkload::send(energy::PhaseLog& log) {
 
 void FrameWorkload::build_marked(energy::PhaseLog& log) {
   const auto mark = log.mark(Phase::build);
-  build();
+  if (built_on_device()) {
+    tracer_->build();
+  } else {
+    build();
+  }
 }
 
 void FrameWorkload::update_marked(energy::PhaseLog& log) {
@@ -126,8 +130,14 @@ FrameWorkload::Fitting FrameWorkload::fitting() const {
   return own && spec_.policy == accel::Policy::refit ? Fitting::device : Fitting::host;
 }
 
-void FrameWorkload::refresh_unmarked() {
+bool FrameWorkload::built_on_device() const {
+  return spec_.build_on == accel::BuildPlace::device && tracer_ != nullptr &&
+         spec_.test != TestKind::fixed && tracer_->can_build();
+}
+
+void FrameWorkload::resend_unmarked() {
   renderer_->refresh();
+  if (built_on_device()) tracer_->build();
 }
 
 void FrameWorkload::fit_unmarked() {

@@ -29,7 +29,7 @@ std::shared_ptr<renderer::gl::Context> GpuContext::get() {
 
 GpuInfo GpuContext::info() {
   const renderer::gl::Capabilities& found = get()->capabilities();
-  return {found.device_name(), found.version};
+  return {found.device_name(), found.version, found.software};
 }
 
 void add_gl_device_option(CLI::App& command, std::optional<int>& device) {

@@ -18,7 +18,8 @@ struct GpuInfo {
   /// By name, and what it is where it is no GPU: "llvmpipe (LLVM 15.0.6, 256 bits), software, runs
   /// on the CPU".
   std::string name;
-  std::string version;  ///< of OpenGL, as the driver says it
+  std::string version;    ///< of OpenGL, as the driver says it
+  bool software = false;  ///< it runs on the CPU; not kept in sessions
 };
 
 /// As settings of a session, and back; nothing where no graphics device took part.

@@ -136,12 +136,13 @@ bool belongs(const std::vector<KeyValue>& test, const std::vector<KeyValue>& dyn
     return false;
   }
   if (std::string_view(kind) == "build") {
-    // Structures are built on the CPU, and updated where they are.
-    const bool updates = configuration_value(dynamic, "policy") == "refit";
+    // Structures are built where it says, and updated where they are.
+    const bool updates = configuration_value(dynamic, "policy") == "refit" ||
+                         configuration_value(dynamic, "build_on") == "device";
     const std::string builder = updates ? configuration_value(dynamic, "device") : "cpu";
     return configuration_value(test, "device") == builder && same("policy") && same("update_case");
   }
-  return same("device") && same("width") && same("height");
+  return same("device") && same("build_on") && same("width") && same("height");
 }
 
 /// Mean of a figure over the tests that belong to a dynamic one (its repeats).

@@ -2,6 +2,7 @@
 
 #include "app/exit_code.h"
 #include "app/ray_options.h"
+#include "renderer/gl/error.h"
 #include "scene/sample_scenes.h"
 #include "scene/text_suggestion.h"
 
@@ -76,6 +77,15 @@ std::vector<Policy> chosen_policies(const ProfileOptions& options, const scene::
   return {Policy::rebuild};
 }
 
+accel::BuildPlace chosen_build_place(const std::string& name) {
+  const auto place = accel::parse_build_place(name);
+  if (!place) {
+    throw UsageError(
+        fmt::format("--build-on: unknown place '{}'; there are auto, cpu and device", name));
+  }
+  return *place;
+}
+
 void set_update_case(accel::StructureSpec& spec, const std::string& name) {
   if (name.empty()) return;
   const auto update_case = accel::parse_update_case(name);
@@ -98,6 +108,7 @@ class ScenePlan {
     if (!named_) tests_.assign(std::begin(kUsualTests), std::end(kUsualTests));
     policies_ = chosen_policies(options, *scene_);
     devices_ = chosen_devices(options, *scene_);
+    build_on_ = chosen_build_place(options.build_on);
   }
 
   void append_to(std::vector<WorkloadSpec>& all) {
@@ -135,7 +146,8 @@ class ScenePlan {
       const bool still = test == TestKind::fixed;
       for (const Policy policy : still ? std::vector{Policy::fixed} : policies) {
         spec.policy = policy;
-        const std::string reason = reason_to_skip(spec);
+        std::string reason = place_build(spec);
+        if (reason.empty()) reason = reason_to_skip(spec);
         if (reason.empty()) {
           all.push_back(spec);
         } else {
@@ -145,11 +157,41 @@ class ScenePlan {
     }
   }
 
+  /// Settles where the structure is built; why it cannot be built where it was asked for, if so.
+  std::string place_build(WorkloadSpec& spec) {
+    spec.build_on = accel::BuildPlace::cpu;
+    if (spec.device != Device::gpu || spec.test == TestKind::fixed) return {};
+    const bool possible = accel::device_can_build(spec.structure, spec.policy);
+    if (build_on_ == accel::BuildPlace::device && !possible) {
+      return fmt::format(
+          "{} under policy {} cannot be built on the device; choose --structure bvh-sah --preset "
+          "fast --policy rebuild, or --build-on cpu",
+          accel::to_string(spec.structure.kind), accel::to_string(spec.policy));
+    }
+    const bool asks = possible && build_on_ == accel::BuildPlace::automatic;
+    spec.build_on = accel::place_of_build(build_on_, spec.structure, spec.policy,
+                                          !asks || device_is_software());
+    return {};
+  }
+
+  /// As if in software where there is none: that is told when it is used.
+  bool device_is_software() {
+    if (!software_) {
+      try {
+        software_ = !tools_.open_gpu || tools_.open_gpu().software;
+      } catch (const renderer::gl::GlUnavailable&) {
+        software_ = true;
+      }
+    }
+    return *software_;
+  }
+
   /// Says once a scene why something is left out that was asked for by name.
   void leave_out(const WorkloadSpec& spec, const std::string& reason) {
     if (std::find(reasons_.begin(), reasons_.end(), reason) != reasons_.end()) return;
     reasons_.push_back(reason);
-    const bool named_structure = spec.structure.kind == accel::StructureKind::brute;
+    const bool named_structure = spec.structure.kind == accel::StructureKind::brute ||
+                                 build_on_ == accel::BuildPlace::device;
     if (named_ || named_structure) terminal_.warning(reason);
   }
 
@@ -174,6 +216,8 @@ class ScenePlan {
   std::vector<Policy> policies_;
   std::vector<Device> devices_;
   std::vector<std::string> reasons_;
+  accel::BuildPlace build_on_ = accel::BuildPlace::automatic;
+  std::optional<bool> software_;
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ struct ProfileOptions : CommonOptions {
   std::string size = "256";
   MeasuringOptions measuring;
   std::string out;                   ///< session folder; empty: a new one among the user's data
+  std::string build_on = "auto";     ///< where trees for the gpu are built: auto, cpu, device
   std::string update_case;           ///< empty: as the structure's settings say
   std::vector<std::string> devices;  ///< empty: the scene's own preference, else cpu
 };
@@ -27,7 +28,8 @@ struct ProfileOptions : CommonOptions {
 using SceneOpener = std::function<std::shared_ptr<const scene::Scene>(const std::string&)>;
 
 /// Opens the scenes and lists everything to measure, scene by scene, device by device, structure by
-/// structure, in the order asked for; no device is opened. A test that does not apply is left out,
+/// structure, in the order asked for. The graphics device is opened only where it depends on it
+/// whether a tree is built there. A test that does not apply is left out,
 /// with a warning if it was asked for by name. Throws UsageError for a wrong option or if nothing
 /// is left, scene::InputError.
 std::vector<WorkloadSpec> list_workloads(const ProfileOptions& options, const WorkloadTools& tools,

@@ -119,7 +119,7 @@ std::string frame_table(const std::vector<SummaryRow>& rows) {
 /// The columns whose content is always text, whatever it looks like.
 bool is_text(std::string_view column) {
   for (const std::string_view name :
-       {"group", "scene", "device", "structure", "policy", "test", "memory", "preset",
+       {"group", "scene", "device", "structure", "policy", "test", "memory", "preset", "build_on",
         "update_case", "intersection", "grouping", "rays", "source", "energy_provenance", "phase",
         "method", "note"}) {
     if (column == name) return true;

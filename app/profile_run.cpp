@@ -41,6 +41,7 @@ std::vector<energy::KeyValue> common_settings(const ProfileOptions& options,
     settings.push_back({"threads", std::move(threads)});
   }
   for (energy::KeyValue& setting : gpu_settings(gpu)) settings.push_back(std::move(setting));
+  if (options.build_on != "auto") settings.push_back({"build_on", options.build_on});
   if (!options.update_case.empty()) settings.push_back({"update_case", options.update_case});
   for (const std::string& setting : options.settings) settings.push_back({"set", setting});
   return settings;

@@ -212,6 +212,8 @@ StudyGroup read_group(TomlTable& table) {
   group.intersections = words(table, "intersections", one_of("intersection mode", modes));
   group.presets = words(table, "presets", one_of("preset", {"fast", "balanced", "best"}));
   group.groupings = words(table, "groupings", one_of("ray grouping", {"packets", "single"}));
+  group.build_on =
+      words(table, "build_on", one_of("place", {"auto", "cpu", "device"}), {"auto"}).front();
   group.rays = words(table, "rays", ray_setting("rays"), {""});
   group.samples = words(table, "samples", ray_setting("samples"), {""});
   group.depth = words(table, "depth", ray_setting("depth"), {""}).front();

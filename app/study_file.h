@@ -26,6 +26,7 @@ struct StudyGroup {
   std::vector<std::string> settings;       ///< "key=value"
   std::vector<std::string> intersections;  ///< names of modes; empty: the scene's own
   std::vector<std::string> presets;        ///< of bvh-sah; empty: what `set` says
+  std::string build_on = "auto";           ///< as --build-on takes it
   std::vector<std::string> groupings;      ///< of rays; empty: packets
   std::vector<std::string> rays;           ///< each as --rays takes it; {""}: the scene's own
   std::vector<std::string> samples;        ///< likewise

@@ -53,6 +53,7 @@ ProfileOptions options_of(const StudyGroup& group, const Study& study, const std
   options.intersections = group.intersections;
   options.presets = group.presets;
   options.groupings = group.groupings;
+  options.build_on = group.build_on;
   options.depth = group.depth;
   return options;
 }

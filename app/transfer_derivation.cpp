@@ -119,21 +119,23 @@ class Derivation {
   TransferFigures make() {
     subtract_animation();
     const std::string policy = value_of(frames_, "policy");
+    const std::string builder = value_of(frames_, "build_on") == "device" ? "gpu" : "cpu";
     subtract_test(Phase::build,
-                  {{{"test", "build"}, {"device", "cpu"}, {"policy", "rebuild"}},
+                  {{{"test", "build"}, {"device", builder}, {"policy", "rebuild"}},
                    {"scene", "structure", "memory", "repeat"}},
-                  "test build of device cpu under policy rebuild");
+                  fmt::format("test build of device {} under policy rebuild", builder));
     subtract_test(Phase::update,
                   {{{"test", "build"}},
                    {"scene", "structure", "memory", "repeat", "device", "policy", "update_case"}},
                   policy == "auto" ? "test of updates under policy auto (there is none)"
                                    : fmt::format("test build of device {} under policy {}",
                                                  value_of(frames_, "device"), policy));
-    subtract_test(Phase::render,
-                  {{{"test", "static"}},
-                   {"scene", "structure", "memory", "repeat", "device", "width", "height"}},
-                  fmt::format("test static of device {} at {}x{}", value_of(frames_, "device"),
-                              value_of(frames_, "width"), value_of(frames_, "height")));
+    subtract_test(
+        Phase::render,
+        {{{"test", "static"}},
+         {"scene", "structure", "memory", "repeat", "device", "width", "height", "build_on"}},
+        fmt::format("test static of device {} at {}x{}", value_of(frames_, "device"),
+                    value_of(frames_, "width"), value_of(frames_, "height")));
     return figures();
   }
 

@@ -19,6 +19,11 @@ std::optional<accel::BuildPreset> preset_of(const WorkloadSpec& spec) {
   return std::get<accel::BvhSettings>(spec.structure.settings).preset;
 }
 
+bool builds_on_device(const WorkloadSpec& spec) {
+  return spec.device == Device::gpu && spec.test != TestKind::fixed &&
+         spec.build_on == accel::BuildPlace::device;
+}
+
 }  // namespace
 
 std::string workload_name(const WorkloadSpec& spec) {
@@ -39,6 +44,7 @@ std::string workload_name(const WorkloadSpec& spec) {
   if (traces && spec.structure.intersection != accel::IntersectionMode::precise) {
     name += fmt::format(", {}", accel::to_string(spec.structure.intersection));
   }
+  if (builds_on_device(spec)) name += ", built on the device";
   if (const auto preset = preset_of(spec)) name += fmt::format(", {}", accel::to_string(*preset));
   if (spec.device == Device::cpu && spec.structure.grouping == accel::RayGrouping::single) {
     name += ", single rays";
@@ -70,6 +76,8 @@ std::vector<energy::KeyValue> configuration_of(const WorkloadSpec& spec, std::si
       {"height", renders ? std::to_string(spec.size.height) : std::string()},
       {"memory", traces ? std::string(accel::to_string(spec.structure.memory)) : ""},
       {"preset", preset ? std::string(accel::to_string(*preset)) : ""},
+      {"build_on",
+       spec.device == Device::gpu ? (builds_on_device(spec) ? "device" : "cpu") : std::string()},
       {"update_case", updates ? std::string(accel::to_string(bvh->update_case)) : ""},
       {"intersection", traces ? std::string(accel::to_string(spec.structure.intersection)) : ""},
       {"grouping", drawn && spec.device == Device::cpu
@@ -83,9 +91,9 @@ std::vector<energy::KeyValue> configuration_of(const WorkloadSpec& spec, std::si
 }
 
 std::vector<std::string> configuration_columns() {
-  return {"group",    "scene",  "device",  "structure", "policy",      "test",
-          "width",    "height", "memory",  "preset",    "update_case", "intersection",
-          "grouping", "rays",   "samples", "depth",     "repeat",      "triangles"};
+  return {"group",  "scene",   "device", "structure", "policy",      "test",         "width",
+          "height", "memory",  "preset", "build_on",  "update_case", "intersection", "grouping",
+          "rays",   "samples", "depth",  "repeat",    "triangles"};
 }
 
 std::vector<std::string> counter_columns() {

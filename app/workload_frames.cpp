@@ -51,6 +51,11 @@ void DeviceUpdateWorkload::prepare() {
   go_to(0.0);
   build();
   init_renderer();
+  if (built_on_device()) {
+    resend_unmarked();
+    check("build");
+    return;
+  }
   check("build");
   if (fitting() != Fitting::device) {
     throw std::runtime_error(
@@ -59,6 +64,14 @@ void DeviceUpdateWorkload::prepare() {
   }
   fit_unmarked();
   check("update");
+}
+
+void DeviceUpdateWorkload::frame(energy::PhaseLog& log) {
+  if (built_on_device()) {
+    build_marked(log);
+  } else {
+    update_marked(log);
+  }
 }
 
 DynamicWorkload::DynamicWorkload(WorkloadSpec spec, const WorkloadTools& tools)
@@ -101,7 +114,7 @@ void DynamicWorkload::start_timed() {
   const double building = start();
   const energy::SteadyClock clock;
   const energy::Seconds begin = clock.now();
-  refresh_unmarked();
+  resend_unmarked();
   if (spec_.policy != Policy::automatic) return;
   const double sending = transfers() ? (clock.now() - begin).value : 0.0;
   auto_ = accel::AutoPolicy(accel::auto_rule(spec_.structure.settings));
@@ -149,8 +162,8 @@ void DynamicWorkload::check_later_frame() {
     case UpdateAction::none:
       break;
     case UpdateAction::build:
-      build();
-      refresh_unmarked();
+      if (!built_on_device()) build();
+      resend_unmarked();
       check("rebuild");
       break;
     case UpdateAction::update:
@@ -174,7 +187,9 @@ void DynamicWorkload::build_noted(energy::PhaseLog& log) {
 void DynamicWorkload::follow(energy::PhaseLog& log) {
   const TriangleChange change = std::exchange(pending_, TriangleChange::none);
   const UpdateAction what = reaction(change);
-  if (what == UpdateAction::build) build_noted(log);
+  const bool own_build = what == UpdateAction::build && built_on_device();
+  if (what == UpdateAction::build && !own_build) build_noted(log);
+  if (own_build) built_over_ = triangles_.triangles.size();
   // A structure left alone refers to triangles by place, so there must still be as many.
   if (structure_ && triangles_.triangles.size() != built_over_) {
     throw std::runtime_error("the triangle count of scene " + spec_.scene->name +
@@ -183,6 +198,7 @@ void DynamicWorkload::follow(energy::PhaseLog& log) {
   const bool on_device = fitting() == Fitting::device;
   if (what == UpdateAction::update && !on_device) update_marked(log);
   if (change != TriangleChange::none) send(log);
+  if (own_build) build_noted(log);
   if (what == UpdateAction::update && on_device) update_marked(log);
 }
 
@@ -238,6 +254,7 @@ void ForcedWorkload::prepare() {
   go_to(0.0);
   build();
   init_renderer();
+  if (built_on_device()) resend_unmarked();
   check("build");
   if (fitting() == Fitting::none) return;
   fit_unmarked();
@@ -246,9 +263,11 @@ void ForcedWorkload::prepare() {
 
 void ForcedWorkload::follow(energy::PhaseLog& log) {
   const Fitting who = fitting();
-  if (who == Fitting::none) build_marked(log);
+  const bool own_build = who == Fitting::none && built_on_device();
+  if (who == Fitting::none && !own_build) build_marked(log);
   if (who == Fitting::host) update_marked(log);
   send(log);
+  if (own_build) build_marked(log);
   if (who == Fitting::device) update_marked(log);
 }
 
@@ -260,8 +279,9 @@ void ForcedWorkload::frame(energy::PhaseLog& log) {
 std::vector<Phase> ForcedWorkload::separable() const {
   const Fitting who = fitting();
   std::vector<Phase> phases{who == Fitting::none ? Phase::build : Phase::update};
-  // Nothing is sent to a device that updates its own copy, so there is nothing to repeat.
-  if (transfers() && who != Fitting::device) phases.push_back(Phase::transfer);
+  // Nothing is sent to a device that builds or updates its own, so there is nothing to repeat.
+  const bool own = who == Fitting::device || built_on_device();
+  if (transfers() && !own) phases.push_back(Phase::transfer);
   phases.push_back(Phase::render);
   return phases;
 }

@@ -42,8 +42,12 @@ class FrameWorkload : public SceneWorkload {
   };
   /// Of use after init_renderer().
   [[nodiscard]] Fitting fitting() const;
+  /// Whether the device builds its own tree whenever the policy wants one built, after the
+  /// triangles were sent; the host's structure stays as it was. Of use after init_renderer().
+  [[nodiscard]] bool built_on_device() const override;
+  /// Sends, and builds on the device where it builds; unmarked.
+  void resend_unmarked();
   [[nodiscard]] bool transfers() const { return renderer_->transfers(); }
-  void refresh_unmarked();
   /// Fits what is traced to the triangles, of which only the places may have changed; unmarked.
   void fit_unmarked();
 
@@ -73,15 +77,16 @@ class FrameWorkload : public SceneWorkload {
   Totals totals_;
 };
 
-/// A loop of updates of the device's own copy of the structure, though nothing changed.
+/// A loop of updates of the device's own copy of the structure, or of its own builds, though
+/// nothing changed.
 class DeviceUpdateWorkload final : public FrameWorkload {
  public:
   using FrameWorkload::FrameWorkload;
-  /// Throws std::runtime_error if the device cannot fit this structure.
+  /// Throws std::runtime_error if the device can neither build nor fit this structure.
   void prepare() override;
 
  protected:
-  void frame(energy::PhaseLog& log) override { update_marked(log); }
+  void frame(energy::PhaseLog& log) override;
   [[nodiscard]] RayFigures ray_figures() const override { return {}; }
 };
 

@@ -140,10 +140,13 @@ void SceneWorkload::append_structure_counters(std::vector<Counter>& counters) co
   const StructureKind kind = spec_.structure.kind;
   const bool structured = structure_ != nullptr && kind != StructureKind::brute;
   const accel::BuildStats stats = structured ? structure_->stats() : accel::BuildStats{};
+  // The figures of a tree that the device built are not at hand.
+  const bool unknown = structured && built_on_device();
   const auto add = [&](const char* name, auto value, bool applies) {
-    counters.push_back({name, structured && applies
-                                  ? std::optional<double>(static_cast<double>(value))
-                                  : std::nullopt});
+    const bool known = structured && applies && !unknown;
+    counters.push_back({name,
+                        known ? std::optional<double>(static_cast<double>(value)) : std::nullopt,
+                        unknown && applies});
   };
   add("nodes", stats.nodes, true);
   add("leaves", stats.leaves, true);
@@ -158,7 +161,7 @@ void SceneWorkload::append_structure_counters(std::vector<Counter>& counters) co
   add("grid_z", stats.grid_size[2], is_grid(kind));
   // Boxes that the device fitted by itself are not at hand.
   add("sah_cost", stats.sah_cost, !host_structure_is_stale());
-  counters.back().unavailable = structured && host_structure_is_stale();
+  counters.back().unavailable = unknown || (structured && host_structure_is_stale());
   add("references_per_leaf", stats.references_per_leaf(), true);
   add("duplication", stats.duplication(), true);
 }
@@ -273,7 +276,8 @@ std::string reason_to_skip(const WorkloadSpec& spec) {
         "again",
         to_string(spec.test));
   }
-  if (spec.device == Device::gpu && spec.test == TestKind::build && spec.policy != Policy::refit) {
+  if (spec.device == Device::gpu && spec.test == TestKind::build && spec.policy != Policy::refit &&
+      spec.build_on != accel::BuildPlace::device) {
     return "structures are built on the CPU, so test build on device gpu would be that of cpu "
            "again; only a refit happens on the device itself";
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/acceleration_structure.h"
+#include "accel/build_place.h"
 #include "accel/settings.h"
 #include "accel/update_policy.h"
 #include "accel/verify.h"
@@ -25,8 +26,8 @@ namespace encore::app {
 
 /// What is looped over. The thesis' three tests (section 5.1) are build, static and forced.
 enum class TestKind {
-  /// A loop of builds, or of updates with Policy::refit, forced though nothing changed. Structures
-  /// are built on the CPU, so on the GPU there are only its own updates.
+  /// A loop of builds, or of updates with Policy::refit, forced though nothing changed. On the GPU
+  /// there are only its own updates, and its own builds where it builds.
   /// Policy::automatic has neither this test nor forced: nothing decays where nothing moves.
   build,
   fixed,     ///< "static": build once, then a loop of frames
@@ -61,7 +62,9 @@ struct WorkloadSpec {
   std::string group;         ///< of the study it belongs to; empty outside studies
   std::uint32_t repeat = 1;  ///< which repeat of the same configuration this is, from 1
   int threads = 0;           ///< for rendering; 0: all
-  scene::RaySettings rays;   ///< of the tests that render, where rays are traced
+  /// Device::gpu, where the tests build frame after frame; never automatic.
+  accel::BuildPlace build_on = accel::BuildPlace::cpu;
+  scene::RaySettings rays;  ///< of the tests that render, where rays are traced
 };
 
 /// For people: "toys, bvh-median, gpu, dynamic (refit), 256x256"; the CPU goes without saying.
@@ -126,6 +129,8 @@ class SceneWorkload : public energy::Workload {
   /// Whether the device fits its own copy of the structure, so that the host's is not the one that
   /// is traced any more.
   [[nodiscard]] virtual bool host_structure_is_stale() const { return false; }
+  /// Whether the device builds a tree of its own, so that nothing is known of what is traced.
+  [[nodiscard]] virtual bool built_on_device() const { return false; }
 
   /// Brings the triangles to a time of the animation; nothing else.
   scene::TriangleChange go_to(double time_s) {

@@ -39,6 +39,9 @@ void add_profile_options(CLI::App& command, ProfileOptions& options,
   command.add_option("--out,-o", options.out,
                      "New or empty folder for the session; default: one in "
                      "$XDG_DATA_HOME/encore/sessions (~/.local/share)");
+  command.add_option("--build-on", options.build_on,
+                     "Where a tree for device gpu is built every frame: auto (default: on a real "
+                     "GPU where it can), cpu, device (bvh-sah, preset fast, policy rebuild)");
   command.add_option("--update-case", options.update_case,
                      "Leaves that a refit treats as changed: real (default), best (none), average "
                      "(60 %), worst (all)");

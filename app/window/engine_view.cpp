@@ -137,7 +137,7 @@ void Engine::fill_power(ui::View& view, const ui::UiState& state) {
     const PaneRequest request = request_of(pane, state);
     const auto output = workers_[pane]->output();
     if (!request.device || !request.scene || !output) continue;
-    const WorkloadSpec spec = workload_of(request, state.settings.measure.forced);
+    const WorkloadSpec spec = workload_of(request, state.settings.measure.forced, output->software);
     const auto wanted = configuration_of(spec, output->triangles);
     for (std::size_t i = 0; i < figures_->configurations.size() && i < configurations_.size();
          ++i) {

@@ -64,7 +64,8 @@ void PaneInspection::clear() {
 }
 
 void PaneInspection::look_at_figures(PaneTracer& tracer) {
-  if (tracer.structure() == nullptr) {
+  // Of a tree that the device built nothing is known.
+  if (tracer.structure() == nullptr || tracer.built_on_device()) {
     stats_.reset();
     figures_of_.reset();
     return;

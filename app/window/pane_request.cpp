@@ -8,8 +8,9 @@ namespace encore::app {
 
 bool PaneRequest::same_frame(const PaneRequest& o) const {
   return scene == o.scene && device == o.device && structure == o.structure && policy == o.policy &&
-         threads == o.threads && rays == o.rays && width == o.width && height == o.height &&
-         rebuild == o.rebuild && cancelled == o.cancelled && camera == o.camera;
+         build_on == o.build_on && threads == o.threads && rays == o.rays && width == o.width &&
+         height == o.height && rebuild == o.rebuild && cancelled == o.cancelled &&
+         camera == o.camera;
 }
 
 scene::Ray ray_of(const scene::Camera& camera, const Probe& pixel, int width, int height) {

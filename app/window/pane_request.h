@@ -1,5 +1,6 @@
 #pragma once
 
+#include "accel/build_place.h"
 #include "accel/settings.h"
 #include "app/device.h"
 #include "energy/phase_log.h"
@@ -55,6 +56,8 @@ struct PaneRequest {
   accel::Policy policy = accel::Policy::rebuild;
   /// What Policy::automatic weighs seconds with: watts above idle, where they are stated.
   std::optional<energy::PerPhase<double>> phase_watts;
+  /// Where a structure for Device::gpu is built frame after frame.
+  accel::BuildPlace build_on = accel::BuildPlace::automatic;
   int threads = 0;
   scene::RaySettings rays;
   double time_s = 0.0;

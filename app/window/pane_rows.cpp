@@ -51,13 +51,15 @@ void add_rays(ui::FrameFigures& figures, const std::optional<renderer::RayFigure
   }
 }
 
-WorkloadSpec workload_of(const PaneRequest& request, bool forced) {
+WorkloadSpec workload_of(const PaneRequest& request, bool forced, bool software) {
   WorkloadSpec spec;
   spec.scene = request.scene;
   spec.device = *request.device;
   spec.structure = request.structure;
   spec.policy = request.policy;
   spec.size = {request.width, request.height};
+  spec.build_on =
+      accel::place_of_build(request.build_on, request.structure, request.policy, software);
   spec.threads = request.threads;
   spec.rays = request.rays;
   spec.test = request.scene->animated() ? TestKind::animated
@@ -66,11 +68,11 @@ WorkloadSpec workload_of(const PaneRequest& request, bool forced) {
   return spec;
 }
 
-energy::FrameRow row_of(const PaneRequest& request, const energy::PhaseLog& log,
+energy::FrameRow row_of(const PaneRequest& request, bool software, const energy::PhaseLog& log,
                         std::size_t triangles) {
   energy::FrameRow row;
   row.time = log.spans().front().start;
-  row.configuration = configuration_of(workload_of(request, false), triangles);
+  row.configuration = configuration_of(workload_of(request, false, software), triangles);
   row.operations = 1;
   for (const energy::PhaseSpan& span : log.spans()) {
     std::optional<energy::Seconds>& sum = row.phases[span.phase];

@@ -22,11 +22,12 @@ void add_rays(ui::FrameFigures& figures, const std::optional<renderer::RayFigure
               std::uint64_t plain);
 
 /// What frames of a request are called in sessions; `forced`: scenes that stand still are followed
-/// as if they moved. The request has a scene and a device.
-WorkloadSpec workload_of(const PaneRequest& request, bool forced);
+/// as if they moved; `software`: the graphics device runs on the CPU. The request has
+/// a scene and a device.
+WorkloadSpec workload_of(const PaneRequest& request, bool forced, bool software);
 
 /// A frame of explore mode as a row of frames.csv; the log has at least one mark.
-energy::FrameRow row_of(const PaneRequest& request, const energy::PhaseLog& log,
+energy::FrameRow row_of(const PaneRequest& request, bool software, const energy::PhaseLog& log,
                         std::size_t triangles);
 
 }  // namespace encore::app

@@ -142,10 +142,30 @@ bool PaneTracer::fits_on_device(const PaneRequest& request) const {
          !request.nodes && !request.free && !request.pick;
 }
 
+bool PaneTracer::builds_on_device(const PaneRequest& request) const {
+  // Whoever looks at the nodes needs the host's, and so does the device's renderer to begin with.
+  return *request.device == Device::gpu && ready_ && built_ && tracer_ != nullptr &&
+         tracer_->can_build() && !request.nodes && !request.free && !request.pick &&
+         accel::place_of_build(request.build_on, request.structure, request.policy, software_) ==
+             accel::BuildPlace::device;
+}
+
 void PaneTracer::build(const PaneRequest& request, energy::PhaseLog& log,
                        accel::BuildWatch* watch) {
+  if (!builds_on_device(request)) return build_on_host(request, log, watch);
+  build_on_device_ = true;
+  built_over_ = triangles_->triangles.size();
+  stale_ = true;
+  ++build_serial_;
+  ++content_serial_;
+}
+
+void PaneTracer::build_on_host(const PaneRequest& request, energy::PhaseLog& log,
+                               accel::BuildWatch* watch) {
   built_ = false;
   fitted_on_device_ = false;
+  built_on_device_ = false;
+  build_on_device_ = false;
   {
     const Watched watched(*structure_, watch);
     const auto mark = log.mark(Phase::build);
@@ -167,6 +187,8 @@ void PaneTracer::update(const PaneRequest& request, energy::PhaseLog& log) {
     update_on_device_ = true;
     return;
   }
+  // The host's may be of other triangles.
+  if (built_on_device_) return build_on_host(request, log, nullptr);
   const auto mark = log.mark(Phase::update);
   accel::carry_out(accel::UpdateAction::update, request.policy, *structure_, triangles_->triangles);
   fitted_on_device_ = false;
@@ -193,8 +215,8 @@ void PaneTracer::follow(TriangleChange change, const PaneRequest& request, energ
             "the number of triangles changed, which policy static cannot "
             "follow; choose rebuild");
       }
-      // Another policy left the device ahead of the host's structure.
-      if (fitted_on_device_ && (request.nodes || request.free || request.pick)) {
+      // The device is ahead of the host's structure, which now is looked at or sent anew.
+      if (fitted_on_device_ && (!ready_ || request.nodes || request.free || request.pick)) {
         update(request, log);
       }
       break;
@@ -226,6 +248,14 @@ void PaneTracer::send(energy::PhaseLog& log) {
   ready_ = true;
   stale_ = false;
   uploaded_bytes_ = renderer_->last_transfer().uploaded_bytes;
+  if (std::exchange(build_on_device_, false) && tracer_ != nullptr) {
+    const auto mark = log.mark(Phase::build);
+    fitted_on_device_ = true;
+    built_on_device_ = true;
+    ready_ = false;  // unless it fits
+    tracer_->build();
+    ready_ = true;
+  }
   if (std::exchange(update_on_device_, false)) {
     const auto mark = log.mark(Phase::update);
     tracer_->refit();

@@ -65,9 +65,11 @@ class PaneTracer {
   /// Whether a frame is of one camera ray a pixel and no others.
   [[nodiscard]] bool plain() const;
   [[nodiscard]] const std::shared_ptr<const scene::Scene>& scene() const { return scene_; }
-  /// Whether the device's copy of the structure was fitted by the device itself, so that the host's
-  /// is of an earlier time.
+  /// Whether the device fitted its copy of the structure, or built one, by itself, so that the
+  /// host's is of an earlier time.
   [[nodiscard]] bool fitted_on_device() const { return fitted_on_device_; }
+  /// Whether the device built what is traced: the host's structure is another one.
+  [[nodiscard]] bool built_on_device() const { return built_on_device_; }
   /// Grows with every build and every update of the host's structure, and every change of scene.
   [[nodiscard]] std::uint64_t structure_serial() const { return structure_serial_; }
   /// Grows with every build from scratch.
@@ -91,7 +93,9 @@ class PaneTracer {
   void send(energy::PhaseLog& log);
   void weigh(const PaneRequest& request);
   void learn(const energy::PhaseLog& log, std::size_t before);
+  void build_on_host(const PaneRequest& request, energy::PhaseLog& log, accel::BuildWatch* watch);
   [[nodiscard]] bool fits_on_device(const PaneRequest& request) const;
+  [[nodiscard]] bool builds_on_device(const PaneRequest& request) const;
 
   GpuContext gpu_;
   std::shared_ptr<const scene::Scene> scene_;
@@ -106,7 +110,9 @@ class PaneTracer {
   std::uint64_t rebuild_ = 0;                      ///< the request's, when it was built
   std::size_t built_over_ = 0;
   bool fitted_on_device_ = false;
+  bool built_on_device_ = false;   ///< what is traced; then fitted_on_device_, too
   bool update_on_device_ = false;  ///< is due, once the triangles are sent
+  bool build_on_device_ = false;   ///< likewise
   std::optional<Device> device_;
   int threads_ = 0;
   scene::RaySettings rays_;  ///< of renderer_

@@ -282,7 +282,8 @@ void PaneWorker::take_frame(const PaneRequest& request) {
   }
   work.frame = figures;
   if (setup_.on_frame && !work.log.spans().empty()) {
-    setup_.on_frame(row_of(request, work.log, work.tracer.triangles().triangles.size()));
+    setup_.on_frame(row_of(request, work.tracer.device_is_software(), work.log,
+                           work.tracer.triangles().triangles.size()));
   }
 }
 

@@ -79,7 +79,7 @@ void PaneWorker::measure_operations(const PaneRequest& request, const SlotJob& j
   Work& work = *work_;
   const bool animated = request.scene->animated();
   const bool forced = job.forced && !animated;
-  const WorkloadSpec spec = workload_of(request, forced);
+  const WorkloadSpec spec = workload_of(request, forced, work.tracer.device_is_software());
   const energy::Clock& clock = setup_.monitor->clock();
   const double step_s = frame_step_s(*request.scene);
   PaneRequest frame = unobserved(request);

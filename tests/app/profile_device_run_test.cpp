@@ -72,6 +72,62 @@ TEST_F(ProfileDeviceRun, DevicesAreMeasuredOneAfterAnotherIntoOneSession) {
   EXPECT_TRUE(settings.contains("gl_version=4.5 fake"));
 }
 
+TEST_F(ProfileDeviceRun, OnARealGpuTheFastTreeIsBuiltThereAndElsewhereOnTheCpu) {
+  options.devices = {"cpu", "gpu"};
+  options.structures = {"bvh-sah", "bvh-median"};
+  options.presets = {"fast", "balanced"};
+  options.policies = {"rebuild", "refit"};
+  Terminal terminal(true);
+  const auto built_there = [&] {
+    std::vector<std::string> names;
+    for (const WorkloadSpec& spec : list_workloads(options, fakes.tools(), terminal)) {
+      if (spec.build_on == accel::BuildPlace::device) names.push_back(workload_name(spec));
+      for (const energy::KeyValue& value : configuration_of(spec, 0)) {
+        if (value.key != "build_on") continue;
+        const bool there = spec.build_on == accel::BuildPlace::device;
+        EXPECT_EQ(value.value, spec.device == Device::cpu ? "" : there ? "device" : "cpu");
+      }
+    }
+    return names;
+  };
+  const std::vector<std::string> fast{
+      "toys, bvh-sah, gpu, build (rebuild), built on the device, fast",
+      "toys, bvh-sah, gpu, dynamic (rebuild), 16x8, built on the device, fast"};
+  EXPECT_TRUE(built_there().empty()) << "in software the CPU would do it anyway";
+  EXPECT_EQ(fakes.opened, 1);
+  fakes.software = false;
+  EXPECT_EQ(built_there(), fast);
+  options.build_on = "cpu";
+  EXPECT_TRUE(built_there().empty());
+  options.build_on = "device";
+  fakes.software = true;
+  EXPECT_EQ(built_there(), fast);
+}
+
+TEST_F(ProfileDeviceRun, WhatTheDeviceCannotBuildIsRefusedInOneLine) {
+  options.devices = {"gpu"};
+  options.build_on = "device";
+  options.policies = {"rebuild"};
+  options.tests = {"dynamic"};
+  Terminal terminal(true);
+  for (const char* structure : {"bvh-median", "grid-box", "bvh-sah"}) {
+    options.structures = {structure};
+    try {
+      list_workloads(options, fakes.tools(), terminal);
+      FAIL() << structure;
+    } catch (const UsageError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find(std::string(structure) +
+                             " under policy rebuild cannot be built on the device; choose "
+                             "--structure bvh-sah --preset fast --policy rebuild"),
+                std::string::npos)
+          << message;
+    }
+  }
+  options.build_on = "moon";
+  EXPECT_THROW(list_workloads(options, fakes.tools(), terminal), UsageError);
+}
+
 TEST_F(ProfileDeviceRun, RasterIsOneConfigurationATestWhateverTheStructures) {
   options.devices = {"raster"};
   options.structures = {"bvh-median", "grid-box", "kd-sah"};

@@ -26,6 +26,7 @@ class ProfileDevices : public testing::Test {
     spec.policy = policy;
     spec.test = test;
     spec.size = {8, 4};
+    spec.build_on = build_on;
     workload = make_workload(spec, fakes.tools());
   }
   energy::Measurement measure(std::uint64_t operations, std::uint64_t warm_up = 0) {
@@ -63,6 +64,7 @@ class ProfileDevices : public testing::Test {
   }
 
   FakeTools fakes;
+  accel::BuildPlace build_on = accel::BuildPlace::cpu;
   energy::SteadyClock clock;
   std::atomic<bool> never{false};
   std::unique_ptr<SceneWorkload> workload;
@@ -89,6 +91,54 @@ TEST_F(ProfileDevices, ADeviceThatRefitsGetsTheTrianglesAndTheHostsStructureStay
   EXPECT_EQ(fakes.counts.builds, builds);
   EXPECT_FALSE(counter("sah_cost").value) << "the host's boxes are not those that are traced";
   EXPECT_TRUE(counter("sah_cost").unavailable);
+}
+
+TEST_F(ProfileDevices, ADeviceThatBuildsGetsTheTrianglesAlone) {
+  fakes.device.can_build = true;
+  build_on = accel::BuildPlace::device;
+  make(Device::gpu, TestKind::animated, Policy::rebuild);
+  workload->prepare();
+  std::size_t before = fakes.device.done.size();
+  const int builds = fakes.counts.builds;
+  EXPECT_EQ(operation(),
+            (std::vector{Phase::animate, Phase::transfer, Phase::build, Phase::render}));
+  EXPECT_EQ(done(before), (Words{"refresh 100", "build", "draw"}));
+  EXPECT_EQ(fakes.counts.builds, builds);
+  for (const char* figure : {"nodes", "leaves", "structure_bytes", "sah_cost"}) {
+    EXPECT_FALSE(counter(figure).value) << figure << " is the host's tree's";
+    EXPECT_TRUE(counter(figure).unavailable) << figure;
+  }
+  EXPECT_EQ(workload->separable(),
+            (std::vector{Phase::animate, Phase::build, Phase::transfer, Phase::render}));
+  before = fakes.device.done.size();
+  EXPECT_EQ(alone(Phase::build), std::vector{Phase::build});
+  EXPECT_EQ(done(before), Words{"build"});
+  EXPECT_EQ(alone(Phase::transfer), (std::vector{Phase::animate, Phase::transfer, Phase::build}));
+
+  make(Device::gpu, TestKind::forced, Policy::rebuild);
+  workload->prepare();
+  before = fakes.device.done.size();
+  EXPECT_EQ(operation(), (std::vector{Phase::transfer, Phase::build, Phase::render}));
+  EXPECT_EQ(done(before), (Words{"refresh 0", "build", "draw"})) << "there is nothing to send";
+  EXPECT_EQ(workload->separable(), (std::vector{Phase::build, Phase::render}));
+
+  make(Device::gpu, TestKind::build, Policy::rebuild);
+  EXPECT_EQ(measure(6).phase_counts, (Counts{{{0, 6, 0, 0, 0}}}));
+
+  make(Device::gpu, TestKind::fixed, Policy::fixed);
+  before = fakes.device.done.size();
+  workload->prepare();
+  EXPECT_EQ(done(before), Words{"init 1100"}) << "what is built once is the host's";
+}
+
+TEST_F(ProfileDevices, AWrongBuildOfTheDeviceIsNeverTimed) {
+  fakes.device.can_build = true;
+  fakes.device.lie = true;
+  build_on = accel::BuildPlace::device;
+  for (const TestKind test : {TestKind::build, TestKind::animated, TestKind::forced}) {
+    make(Device::gpu, test, Policy::rebuild);
+    EXPECT_THROW(measure(3), MismatchError) << to_string(test);
+  }
 }
 
 TEST_F(ProfileDevices, WhereTheDeviceCannotRefitTheHostDoesAndSendsIt) {

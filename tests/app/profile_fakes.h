@@ -89,11 +89,12 @@ class FakeRenderer final : public renderer::Renderer {
 /// What the fake devices of one test are to do, and did.
 struct DeviceScript {
   bool can_refit = true;
+  bool can_build = false;
   bool clock = true;              ///< it has one, by which everything takes 2 ms
   bool lie = false;               ///< its hits are wrong
   bool lie_after_refit = false;   ///< those after a refit are
   bool out_of_memory = false;     ///< init() fails
-  std::vector<std::string> done;  ///< "init", "refresh 1000", "refit", "draw"
+  std::vector<std::string> done;  ///< "init", "refresh 1000", "refit", "build", "draw"
   int read = 0;                   ///< pictures fetched
 };
 
@@ -125,6 +126,13 @@ class FakeDevice final : public renderer::Tracer {
     if (!script_.can_refit) throw std::logic_error("this device cannot refit");
     script_.done.emplace_back("refit");
     refitted_ = true;
+    traced_ = triangles_;
+  }
+
+  [[nodiscard]] bool can_build() const override { return script_.can_build; }
+  void build() override {
+    if (!script_.can_build) throw std::logic_error("this device cannot build");
+    script_.done.emplace_back("build");
     traced_ = triangles_;
   }
 
@@ -188,7 +196,8 @@ struct FakeTools {
   bool lie_after_update = false;
   DeviceScript device;
   bool opengl = true;  ///< there is a graphics device
-  int opened = 0;      ///< how often it was opened
+  bool software = true;
+  int opened = 0;  ///< how often it was opened
 
   WorkloadTools tools() {
     return {[this](const accel::StructureSpec&) {
@@ -205,7 +214,7 @@ struct FakeTools {
               ++opened;
               if (!opengl)
                 throw renderer::gl::GlUnavailable("there is no OpenGL here:\n  nothing was found");
-              return {"fake board, software, runs on the CPU", "4.5 fake"};
+              return {"fake board, software, runs on the CPU", "4.5 fake", software};
             }};
   }
 };

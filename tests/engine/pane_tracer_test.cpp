@@ -2,12 +2,14 @@
 #include "app/window/pane_tracer.h"
 
 #include "energy/clock.h"
+#include "renderer/gl/context.h"
 #include "scene/sample_scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace encore::app {
@@ -132,6 +134,102 @@ TEST_F(PaneTracerTest, ForcedFramesBuildOrUpdateThoughNothingMoves) {
   tracer_.follow_forced(request, log_);
   ASSERT_EQ(log_.spans().size(), 1U);
   EXPECT_EQ(log_.spans()[0].phase, energy::Phase::update);
+}
+
+/// The same pane with structures built on the device and on the CPU.
+class BuildingDevice : public PaneTracerTest {
+ protected:
+  void SetUp() override {
+    for (const renderer::gl::DeviceListing& device : renderer::gl::list_devices(nullptr)) {
+      if (device.usable) return;
+    }
+    GTEST_SKIP() << "no OpenGL device to test with";
+  }
+  static PaneRequest fast_request() {
+    PaneRequest request = request_for("wave", Device::gpu);
+    request.structure = accel::default_spec(accel::StructureKind::bvh_sah);
+    std::get<accel::BvhSettings>(request.structure.settings).preset = accel::BuildPreset::fast;
+    request.build_on = accel::BuildPlace::device;
+    return request;
+  }
+  renderer::Image picture(PaneTracer& tracer, const PaneRequest& request) {
+    renderer::Image image;
+    tracer.draw(request.camera, request.width, request.height, log_, nullptr);
+    tracer.renderer()->read(image);
+    return image;
+  }
+  /// Draws the same on a pane whose structures come from the CPU.
+  void expect_same_picture(PaneRequest request, const std::string& what) {
+    const renderer::Image found = picture(tracer_, request);
+    request.build_on = accel::BuildPlace::cpu;
+    energy::PhaseLog log(clock_);
+    cpu_.prepare(request, log, nullptr);
+    EXPECT_FALSE(cpu_.built_on_device());
+    const renderer::Image expected = picture(cpu_, request);
+    ASSERT_EQ(found.pixels.size(), expected.pixels.size());
+    EXPECT_TRUE(found.pixels == expected.pixels) << what;
+  }
+  PaneTracer cpu_{std::nullopt};
+};
+
+TEST_F(BuildingDevice, SendsTheTrianglesAloneAndDrawsTheSamePicture) {
+  PaneRequest request = fast_request();
+  EXPECT_EQ(prepare(request), (Phases{energy::Phase::build, energy::Phase::transfer}))
+      << "the first is the CPU's";
+  EXPECT_FALSE(tracer_.built_on_device());
+  const std::uint64_t whole = tracer_.uploaded_bytes();
+  for (const double time_s : {0.3, 0.6}) {
+    request.time_s = time_s;
+    EXPECT_EQ(prepare(request),
+              (Phases{energy::Phase::animate, energy::Phase::transfer, energy::Phase::build}));
+    EXPECT_TRUE(tracer_.built_on_device());
+    EXPECT_TRUE(tracer_.fitted_on_device());
+    EXPECT_LT(tracer_.uploaded_bytes(), whole);
+    expect_same_picture(request, std::to_string(time_s));
+  }
+  EXPECT_EQ(prepare(request), Phases{}) << "nothing changed";
+}
+
+TEST_F(BuildingDevice, WhoeverNeedsTheNodesGetsATreeOfTheCpu) {
+  PaneRequest request = fast_request();
+  prepare(request);
+  request.time_s = 0.4;
+  prepare(request);
+  ASSERT_TRUE(tracer_.built_on_device());
+  request.nodes = true;
+  EXPECT_EQ(prepare(request), (Phases{energy::Phase::build, energy::Phase::transfer}));
+  EXPECT_FALSE(tracer_.fitted_on_device());
+  EXPECT_FALSE(tracer_.built_on_device());
+  expect_same_picture(request, "nodes");
+}
+
+TEST_F(BuildingDevice, ADeviceThatIsSentEverythingAnewGetsATreeOfThatTime) {
+  PaneRequest request = fast_request();
+  prepare(request);
+  request.time_s = 0.4;
+  prepare(request);
+  ASSERT_TRUE(tracer_.built_on_device());
+  request.structure.intersection = accel::IntersectionMode::watertight;
+  EXPECT_EQ(prepare(request), (Phases{energy::Phase::build, energy::Phase::transfer}));
+  expect_same_picture(request, "another mode");
+  request.policy = accel::Policy::refit;
+  request.time_s = 0.5;
+  prepare(request);
+  ASSERT_TRUE(tracer_.fitted_on_device());
+  request.device = Device::cpu;
+  prepare(request);
+  EXPECT_FALSE(tracer_.fitted_on_device());
+  expect_same_picture(request, "the CPU after a fit of the device's");
+}
+
+TEST_F(BuildingDevice, OthersAreBuiltOnTheCpuWhateverIsAskedFor) {
+  PaneRequest request = fast_request();
+  std::get<accel::BvhSettings>(request.structure.settings).preset = accel::BuildPreset::balanced;
+  prepare(request);
+  request.time_s = 0.4;
+  EXPECT_EQ(prepare(request),
+            (Phases{energy::Phase::animate, energy::Phase::build, energy::Phase::transfer}));
+  EXPECT_FALSE(tracer_.built_on_device());
 }
 
 TEST_F(PaneTracerTest, AnotherSceneReplacesEverything) {

@@ -118,15 +118,25 @@ class RecordingWorld {
   static Slot slot_of(const char* device) {
     Slot slot;
     slot.idle = false;
-    slot.configuration = {{"group", ""},           {"scene", "toys"},
-                          {"device", device},      {"structure", "bvh-median"},
-                          {"policy", "static"},    {"test", "static"},
-                          {"width", "64"},         {"height", "32"},
-                          {"memory", "pool"},      {"preset", ""},
-                          {"update_case", ""},     {"intersection", "precise"},
-                          {"grouping", "packets"}, {"rays", "none"},
-                          {"samples", "1"},        {"depth", ""},
-                          {"repeat", "1"},         {"triangles", "100"}};
+    slot.configuration = {{"group", ""},
+                          {"scene", "toys"},
+                          {"device", device},
+                          {"structure", "bvh-median"},
+                          {"policy", "static"},
+                          {"test", "static"},
+                          {"width", "64"},
+                          {"height", "32"},
+                          {"memory", "pool"},
+                          {"preset", ""},
+                          {"build_on", ""},
+                          {"update_case", ""},
+                          {"intersection", "precise"},
+                          {"grouping", "packets"},
+                          {"rays", "none"},
+                          {"samples", "1"},
+                          {"depth", ""},
+                          {"repeat", "1"},
+                          {"triangles", "100"}};
     slot.rays = 64.0 * 32.0;
     return slot;
   }

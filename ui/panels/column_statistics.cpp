@@ -306,10 +306,11 @@ void draw_table(const ColumnContext& context, const char* id, const std::vector<
 void draw_statistics(const ColumnContext& context) {
   const PaneView& shown = context.shown();
   if (!shown.stats) {
-    return draw_missing(context, "statistics.none",
-                        shown.problem.empty()
-                            ? "There is no structure yet: its figures show when it is built."
-                            : shown.problem);
+    const char* const why =
+        shown.refits_on_device
+            ? "The graphics device builds this tree: its figures are not at hand."
+            : "There is no structure yet: its figures show when it is built.";
+    return draw_missing(context, "statistics.none", shown.problem.empty() ? why : shown.problem);
   }
   const std::size_t mine = context.state.inspected_pane;
   Compared compared{shown, compared_pane(context), pane_title(context, mine),
