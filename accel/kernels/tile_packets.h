@@ -1,5 +1,6 @@
 #pragma once
 
+#include "accel/kernels/wide_tile_doubts.h"
 #include "accel/kernels/wide_tile_exact.h"
 #include "accel/kernels/wide_tile_frustum.h"
 #include "accel/kernels/wide_tile_triangles.h"
@@ -83,33 +84,11 @@ class TilePacket {
   [[gnu::always_inline]] void prepare_one(const scene::Triangle& t, PreparedBlock& to) const {
     const auto four = [](const glm::vec3& v) { return Points<4>::all(v); };
     const Points<4> v0 = four(t.v0);
-    const Points<4> e1 = four(t.v1) - v0;
-    const Points<4> e2 = four(t.v2) - v0;
-    to.store(PreparedBlock::kE1, e1);
-    to.store(PreparedBlock::kE2, e2);
+    prepare<kCommonOf, Tester::kFilter>(v0, four(t.v1) - v0, four(t.v2) - v0, packet_, to);
     to.count = 1;
-    if constexpr (kCommonOf) {
-      const float* const origin = packet_.origin[0];
-      const Points<4> o{Floats<4>::all(origin[0]), Floats<4>::all(origin[kPacketRays]),
-                        Floats<4>::all(origin[2 * kPacketRays])};
-      const Points<4> s = o - v0;
-      const Points<4> q = cross(s, e1);
-      to.store(PreparedBlock::kS, s);
-      to.store(PreparedBlock::kQ, q);
-      dot(e2, q).store(to.row[PreparedBlock::kDistance]);
-      if constexpr (Tester::kFilter) {
-        const Floats<4> edge = max(largest(e1), largest(e2));
-        const Floats<4> far = max(edge, largest(s));
-        edge.store(to.row[PreparedBlock::kEdge]);
-        far.store(to.row[PreparedBlock::kReach]);
-        filter_error(edge, far).store(to.row[PreparedBlock::kError]);
-      }
-    } else {
-      to.store(PreparedBlock::kV0, v0);
-      if constexpr (Tester::kFilter) {
-        max(largest(e1), largest(e2)).store(to.row[PreparedBlock::kEdge]);
-      }
-    }
+    to.corners = &t.v0.x;
+    to.next_vertex = static_cast<int>(sizeof(scene::Triangle) / sizeof(float) / 3);
+    to.next_axis = 1;
   }
 
   [[gnu::always_inline]] void limit_group(int group) {
@@ -151,25 +130,12 @@ inline void set_packet_inverses(RayPacket& packet, bool keep_sign) {
   }
 }
 
-/// Whether TriangleFilter's error bound holds for the directions as they are, and is sharp.
-inline bool directions_filterable(const RayPacket& packet, const PacketFrustums& frustums) {
-  using F = Floats<kLanes>;
-  F greatest = F::all(0.0F), least = F::all(1.0F);
-  for (int i = 0; i < kPacketRays; i += kLanes) {
-    greatest = max(greatest, largest(Points<kLanes>::load(packet.direction[0] + i, kPacketRays)));
-    least = min(least, F::load(frustums.along + i));
-  }
-  return greatest_of(greatest) < 2.0F && least_of(least) > 0x1p-6F;
-}
-
 /// How a mode finds hits, in the order of IntersectionMode, and what it then tells of them.
 template <int kMode>
 struct TilePlan {
-  using Tester = DoubtingPackets;
+  using Tester = DoubtingPackets<kMode == 0>;
   static void finish(const scene::Triangle* triangles, const scene::Ray* rays, RayPacket& packet) {
-    const TraceScene scene{WideView{}, triangles, rays};
-    if (kMode == 0) settle_precise(scene, packet);
-    if (kMode == 2) settle_watertight(scene, packet);
+    if (kMode == 0) settle_precise(TraceScene{WideView{}, triangles, rays}, packet);
   }
 };
 template <>
@@ -183,9 +149,10 @@ struct TilePlan<1> {
 template <template <class> class Trace, class Tester, bool kAnyHit, class View>
 bool trace_tile_packet(const View& view, const scene::Triangle* triangles, const scene::Ray* rays,
                        RayPacket& packet) {
+  if (!fill_idle_rays(packet)) return true;
   PacketFrustums frustums;
   if (!frustums.set(packet)) return false;
-  if (Tester::kFilter && !directions_filterable(packet, frustums)) return false;
+  if constexpr (Tester::kFilter) set_settling(packet, frustums.common_origin);
   const auto run = [&](auto& tile) {
     Trace<std::remove_reference_t<decltype(tile)>> trace(view, tile);
     return trace.run();

@@ -37,14 +37,11 @@ struct WatertightWeights {
   Mask<N> candidates, sure;
 };
 
+/// `a`, `b` and `c`: the vertices as seen from the origin; `along`: largest z of the three.
 template <int N>
-[[gnu::always_inline]] inline WatertightWeights<N> watertight_weights(const Corners<N>& triangle,
-                                                                      const Points<N>& origin,
-                                                                      Floats<N> shear_x,
-                                                                      Floats<N> shear_y) {
-  const Points<N> a = triangle.v0 - origin;
-  const Points<N> b = triangle.v1 - origin;
-  const Points<N> c = triangle.v2 - origin;
+[[gnu::always_inline]] inline WatertightWeights<N> watertight_weights(
+    const Points<N>& a, const Points<N>& b, const Points<N>& c, const Floats<N>& along,
+    const Floats<N>& shear_x, const Floats<N>& shear_y) {
   const Floats<N> ax = a.x - shear_x * a.z, ay = a.y - shear_y * a.z;
   const Floats<N> bx = b.x - shear_x * b.z, by = b.y - shear_y * b.z;
   const Floats<N> cx = c.x - shear_x * c.z, cy = c.y - shear_y * c.z;
@@ -53,7 +50,6 @@ template <int N>
   w.b = ax * cy - ay * cx;
   w.c = bx * ay - by * ax;
   const Floats<N> lateral = max(largest(Points<N>{ax, bx, cx}), largest(Points<N>{ay, by, cy}));
-  const Floats<N> along = largest(Points<N>{a.z, b.z, c.z});
   const Floats<N> error = Floats<N>::all(ENCORE_WATERTIGHT_RESULT) * lateral * (lateral + along) *
                               Floats<N>::all(ENCORE_WATERTIGHT_ERROR) +
                           Floats<N>::all(ENCORE_FILTER_UNDERFLOW);
@@ -65,59 +61,95 @@ template <int N>
   w.sure = (low > error) | (high < minus_error);
   return w;
 }
+template <int N>
+[[gnu::always_inline]] inline WatertightWeights<N> watertight_weights(const Corners<N>& triangle,
+                                                                      const Points<N>& origin,
+                                                                      const Floats<N>& shear_x,
+                                                                      const Floats<N>& shear_y) {
+  const Points<N> a = triangle.v0 - origin;
+  const Points<N> b = triangle.v1 - origin;
+  const Points<N> c = triangle.v2 - origin;
+  return watertight_weights(a, b, c, largest(Points<N>{a.z, b.z, c.z}), shear_x, shear_y);
+}
+
+/// What the distances of N pairs have of the triangle and the origin alone: the dividend, and where
+/// it is as precise as the tester wants it, and where at least its sign is certain.
+template <int N>
+struct WatertightHeight {
+  Floats<N> above;
+  Floats<N> least_slope;  ///< from which on decide_hit() does not ask the triangle's box
+  Mask<N> precise, has_sign;
+};
+
+/// `x`, `y`, `z`: the terms of normal times first vertex as seen from the origin, in the order of
+/// the axes as they were; `edge`: the largest component of the edges.
+template <int N>
+[[gnu::always_inline]] inline WatertightHeight<N> watertight_height(const Floats<N>& x,
+                                                                    const Floats<N>& y,
+                                                                    const Floats<N>& z,
+                                                                    const Floats<N>& edge) {
+  const auto all = [](float number) __attribute__((always_inline)) {
+    return Floats<N>::all(number);
+  };
+  WatertightHeight<N> r;
+  r.above = x + y + z;
+  const Floats<N> size = abs(r.above);
+  const Floats<N> heights = abs(x) + abs(y) + abs(z);
+  const Floats<N> error = all(32.0F) * edge * edge * edge + all(5.0F) * heights;
+  const Mask<N> in_range = (edge > all(ENCORE_WATERTIGHT_EDGE_SMALL)) &
+                           (edge < all(ENCORE_WATERTIGHT_EDGE_LARGE)) &
+                           (size > all(ENCORE_WATERTIGHT_SMALL));
+  r.precise = in_range & (error < all(128.0F) * size);
+  r.least_slope = all(0x1p-19F) * edge * edge;
+  r.has_sign = in_range & (error < all(0x1p+22F) * size);
+  return r;
+}
+
+/// What distances take of N rays: WatertightRay's numbers and where the rays begin and end.
+template <int N>
+struct WatertightStretch {
+  Floats<N> shear_x, shear_y, scale, t_min, t_max;
+};
 
 /// The distances of N pairs whose weights are sure. Where `sure`, t is within the tester's bound of
 /// the true distance and not so near t_min or t_max that it could lie beyond them. Where `behind`,
 /// the triangle is certainly behind the origin: of the bound's two sums, in units of the roundoff,
 /// each is below its number's 2^-22, so signs are certain where distances need not be. (A ray that
-/// leaves a surface has its first triangle there, too near for its distance.)
+/// leaves a surface has its first triangle there, too near for its distance.) Where `ahead`, signs
+/// are certain too and t is within a factor of two, which leaves it between t_min and t_max.
 template <int N>
 struct WatertightDistances {
   Floats<N> t;
-  Mask<N> sure, behind;
+  Mask<N> sure, behind, ahead;
 };
 
-/// `kz` is the ray's, the same for all N.
+/// `n`: the normal, its axes in the order kx, ky, kz.
 template <int N>
 [[gnu::always_inline]] inline WatertightDistances<N> watertight_distances(
-    const Corners<N>& triangle, const Points<N>& origin, const WatertightRay& ray, float t_min,
-    float t_max) {
+    const WatertightHeight<N>& height, const Points<N>& n, const WatertightStretch<N>& ray) {
   const auto all = [](float x) __attribute__((always_inline)) {
     return Floats<N>::all(x);
   };
-  const Points<N> a = triangle.v0 - origin;
-  const Points<N> e1 = triangle.v1 - triangle.v0;
-  const Points<N> e2 = triangle.v2 - triangle.v0;
-  const Points<N> n = cross(e1, e2);
-  // Sums go in the order of the axes as they were.
-  const Floats<N> hx = n.x * a.x, hy = n.y * a.y, hz = n.z * a.z;
-  const Floats<N> h0 = ray.kz == 2 ? hx : ray.kz == 0 ? hz : hy;
-  const Floats<N> h1 = ray.kz == 2 ? hy : ray.kz == 0 ? hx : hz;
-  const Floats<N> h2 = ray.kz == 2 ? hz : ray.kz == 0 ? hy : hx;
-  const Floats<N> sx = n.x * all(ray.shear_x), sy = n.y * all(ray.shear_y);
-  const Floats<N> above = h0 + h1 + h2;
+  const Floats<N> sx = n.x * ray.shear_x, sy = n.y * ray.shear_y;
   const Floats<N> down = sx + sy + n.z;
-  const Floats<N> heights = abs(h0) + abs(h1) + abs(h2);
-  const Floats<N> slopes = abs(sx) + abs(sy) + abs(n.z);
-  const Floats<N> edge = max(largest(e1), largest(e2));
+  const Floats<N> steep = abs(down);
+  const Floats<N> error = all(5.0F) * (abs(sx) + abs(sy) + abs(n.z));
   const Floats<N> small = all(ENCORE_WATERTIGHT_SMALL);
-  const Mask<N> in_range = (edge > all(ENCORE_WATERTIGHT_EDGE_SMALL)) &
-                           (edge < all(ENCORE_WATERTIGHT_EDGE_LARGE)) & (abs(above) > small) &
-                           (abs(down) > small);
-  const Floats<N> above_error = all(32.0F) * edge * edge * edge + all(5.0F) * heights;
-  const Floats<N> down_error = all(5.0F) * slopes;
-  const Mask<N> precise =
-      (above_error < all(128.0F) * abs(above)) & (down_error < all(120.0F) * abs(down));
+  const Mask<N> in_range = steep > small;
   WatertightDistances<N> r;
-  r.t = above / down * all(ray.scale);
+  r.t = height.above / down * ray.scale;
   const Floats<N> size = abs(r.t);
   const Floats<N> near = all(4 * ENCORE_WATERTIGHT_DISTANCE) * size;
-  const Mask<N> at_an_end = (abs(r.t - all(t_min)) <= near) | (abs(r.t - all(t_max)) <= near);
-  r.sure = without(in_range & precise & (size > small) & (size < all(ENCORE_WATERTIGHT_LARGE)),
+  const Mask<N> at_an_end = (abs(r.t - ray.t_min) <= near) | (abs(r.t - ray.t_max) <= near);
+  r.sure = without(height.precise & in_range & (error < all(120.0F) * steep) & (size > small) &
+                       (size < all(ENCORE_WATERTIGHT_LARGE)),
                    at_an_end);
   const Floats<N> zero = all(0.0F);
-  r.behind = in_range & (above_error < all(0x1p+22F) * abs(above)) &
-             (down_error < all(0x1p+22F) * abs(down)) & (r.t < zero) & (all(t_min) >= zero);
+  const Mask<N> has_sign = height.has_sign & in_range & (error < all(0x1p+22F) * steep);
+  r.behind = has_sign & (r.t < zero) & (ray.t_min >= zero);
+  r.ahead = has_sign & (steep > height.least_slope) & (r.t > small) &
+            (r.t < all(ENCORE_WATERTIGHT_LARGE)) & (all(0.5F) * r.t > ray.t_min) &
+            (all(2.0F) * r.t < ray.t_max);
   return r;
 }
 

@@ -1,4 +1,5 @@
 // bvh-sah, rectangles of rays in packets of 64.
+#include "accel/kernels/wide_tile_doubts.h"
 #include "accel/kernels/wide_tile_exact.h"
 #include "accel/kernels/wide_tile_trace.h"
 #include "accel/wide/wide_kernels.h"
@@ -10,34 +11,39 @@ const WideTileKernels& tile_kernels();
 
 namespace {
 
-/// Whether TriangleFilter's error bound holds for the directions as they are, and is sharp.
-bool filterable(const RayPacket& packet, const PacketFrustums& frustums) {
-  using F = Floats<kLanes>;
-  F greatest = F::all(0.0F), least = F::all(1.0F);
-  for (int i = 0; i < kPacketRays; i += kLanes) {
-    greatest = max(greatest, largest(Points<kLanes>::load(packet.direction[0] + i, kPacketRays)));
-    least = min(least, F::load(frustums.along + i));
-  }
-  return greatest_of(greatest) < 2.0F && least_of(least) > 0x1p-6F;
-}
-
 template <class Tester, bool kAnyHit>
 bool trace_packet(const TraceScene& scene, RayPacket& packet) {
+  if (!fill_idle_rays(packet)) return true;
   PacketFrustums frustums;
   if (!frustums.set(packet)) return false;
-  if (Tester::kFilter && !filterable(packet, frustums)) return false;
+  if constexpr (Tester::kFilter) set_settling(packet, frustums.common_origin);
   return frustums.common_origin
              ? PacketTrace<Tester, kAnyHit, true>(scene, packet, frustums).run()
              : PacketTrace<Tester, kAnyHit, false>(scene, packet, frustums).run();
+}
+
+/// Has rays of the packet that comes next, `rows` times `columns` of them, on their way from memory
+/// while the one before is traced: eight rows apart are more than the processor foresees. Behind a
+/// rectangle often comes another one; nothing is read there.
+[[gnu::always_inline]] inline void prefetch_rays(const scene::Ray* rays, std::size_t first,
+                                                 std::size_t width, std::uint32_t columns,
+                                                 std::uint32_t rows) {
+  const auto start = reinterpret_cast<std::uintptr_t>(rays) + first * sizeof(scene::Ray);
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    const std::uintptr_t at = start + row * width * sizeof(scene::Ray);
+    for (std::uint32_t i = 0; i < columns * sizeof(scene::Ray); i += 64) {
+      __builtin_prefetch(reinterpret_cast<const void*>(at + i));
+    }
+  }
 }
 
 /// Calls together(first ray) for all packets of a rectangle. For those of which it returns false,
 /// the rays go alone(first, count): a whole band of packets at once where none goes together, as
 /// single rays are quick only in long batches.
 template <class Together, class Alone>
-[[gnu::always_inline]] inline void for_packets(std::size_t width, std::size_t height,
-                                               RayPacket& packet, const Together& together,
-                                               const Alone& alone) {
+[[gnu::always_inline]] inline void for_packets(const scene::Ray* rays, std::size_t width,
+                                               std::size_t height, RayPacket& packet,
+                                               const Together& together, const Alone& alone) {
   std::uint32_t columns = 8;
   while (columns > 1 && columns / 2 >= width) columns /= 2;
   while (columns < kPacketRays && kPacketRays / columns / 2 >= height) columns *= 2;
@@ -60,6 +66,9 @@ template <class Together, class Alone>
         set_rows = has_rows;
         set_columns = has_columns;
       }
+      const bool last = width - x <= columns;
+      prefetch_rays(rays, last ? (y + rows) * width : y * width + x + columns, width, columns,
+                    rows);
       if (together(y * width + x)) {
         for (std::size_t k = 0; k < left; ++k) alone_in(y, k * columns, has_rows);
         left = 0;
@@ -80,14 +89,12 @@ struct MollerTrumborePlan {
   static void finish(const TraceScene& /*scene*/, RayPacket& /*packet*/) {}
 };
 struct PrecisePlan {
-  using Tester = DoubtingPackets;
+  using Tester = DoubtingPackets<true>;
   static void finish(const TraceScene& scene, RayPacket& packet) { settle_precise(scene, packet); }
 };
 struct WatertightPlan {
-  using Tester = DoubtingPackets;
-  static void finish(const TraceScene& scene, RayPacket& packet) {
-    settle_watertight(scene, packet);
-  }
+  using Tester = DoubtingPackets<false>;
+  static void finish(const TraceScene& /*scene*/, RayPacket& /*packet*/) {}
 };
 
 template <class Plan, int kMode>
@@ -104,7 +111,7 @@ void intersect(const WideView& tree, const scene::Triangle* triangles, const sce
     store_hits(packet, hits + first);
     return true;
   };
-  for_packets(width, height, packet, together, [&](std::size_t first, std::size_t count) {
+  for_packets(rays, width, height, packet, together, [&](std::size_t first, std::size_t count) {
     single(tree, triangles, rays + first, count, hits + first);
   });
 }
@@ -122,7 +129,7 @@ void occluded(const WideView& tree, const scene::Triangle* triangles, const scen
     store_blocked(packet, blocked + first);
     return true;
   };
-  for_packets(width, height, packet, together, [&](std::size_t first, std::size_t count) {
+  for_packets(rays, width, height, packet, together, [&](std::size_t first, std::size_t count) {
     single(tree, triangles, rays + first, count, blocked + first);
   });
 }
@@ -132,8 +139,8 @@ void occluded(const WideView& tree, const scene::Triangle* triangles, const scen
 const WideTileKernels& tile_kernels() {
   static constexpr WideTileKernels kernels{
       {intersect<PrecisePlan, 0>, intersect<MollerTrumborePlan, 1>, intersect<WatertightPlan, 2>},
-      {occluded<DoubtingPackets, 0>, occluded<MollerTrumborePackets, 1>,
-       occluded<DoubtingPackets, 2>}};
+      {occluded<DoubtingPackets<true>, 0>, occluded<MollerTrumborePackets, 1>,
+       occluded<DoubtingPackets<true>, 2>}};
   return kernels;
 }
 

@@ -27,24 +27,25 @@ struct Doubles {
   static Doubles all(double x) {
     return {ENCORE_DOUBLES(set1_pd)(x)};
   }
-  /// From and to kDoubles floats.
-  static Doubles of(const float* from) {
+  /// From the lower or the upper half of as many floats as a register holds, and back from both.
+  template <int kHalf>
+  [[gnu::always_inline]] static Doubles of_half(const Floats<2 * kDoubles>& from) {
 #if defined(ENCORE_AVX512)
-    return {_mm512_cvtps_pd(_mm256_loadu_ps(from))};
+    return {_mm512_cvtps_pd(_mm512_extractf32x8_ps(from.v, kHalf))};
 #elif defined(__AVX2__)
-    return {_mm256_cvtps_pd(_mm_loadu_ps(from))};
+    return {_mm256_cvtps_pd(_mm256_extractf128_ps(from.v, kHalf))};
 #else
-    return {
-        _mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))))};
+    return {_mm_cvtps_pd(kHalf == 0 ? from.v : _mm_movehl_ps(from.v, from.v))};
 #endif
   }
-  void round_to(float* to) const {
+  [[gnu::always_inline]] static Floats<2 * kDoubles> round(Doubles low, Doubles high) {
 #if defined(ENCORE_AVX512)
-    _mm256_storeu_ps(to, _mm512_cvtpd_ps(v));
+    return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(low.v)),
+                               _mm512_cvtpd_ps(high.v), 1)};
 #elif defined(__AVX2__)
-    _mm_storeu_ps(to, _mm256_cvtpd_ps(v));
+    return {_mm256_set_m128(_mm256_cvtpd_ps(high.v), _mm256_cvtpd_ps(low.v))};
 #else
-    _mm_storel_pi(reinterpret_cast<__m64*>(to), _mm_cvtpd_ps(v));
+    return {_mm_movelh_ps(_mm_cvtpd_ps(low.v), _mm_cvtpd_ps(high.v))};
 #endif
   }
   friend Doubles operator+(Doubles a, Doubles b) {

@@ -151,7 +151,10 @@ inline bool PacketFrustums::set_way(const RayPacket& packet) {
     const F t = F::load(packet.t + i);
     const F sum = F::load(packet.origin[0] + i) + F::load(packet.origin[1] + i) +
                   F::load(packet.origin[2] + i);
-    plain &= ((a > F::all(0x1p-60F)) & (a < F::all(0x1p60F)) & (t == t) & (sum == sum)).bits();
+    // What lies behind the origins is outside of the frustums.
+    const auto forward = F::load(packet.t_min + i) >= F::all(0.0F);
+    plain &=
+        (forward & (a > F::all(0x1p-60F)) & (a < F::all(0x1p60F)) & (t == t) & (sum == sum)).bits();
     a.store(along + i);
     (F::all(1.0F) / a).store(inverse + i);
   }

@@ -20,6 +20,17 @@ inline constexpr int kLanes = 4;
 #endif
 inline constexpr int kGroups = kPacketRays / kLanes;
 
+/// Of a packet's rays what doubts are settled with, in the modes that have doubts.
+struct alignas(64) SettlingRays {
+  /// TriangleFilter's: the direction times a power of two, its largest component in [1, 2).
+  float direction[3][kPacketRays];
+  /// WatertightRay's numbers, and bit by bit the rays of each group whose kz is an axis.
+  float shear_x[kPacketRays], shear_y[kPacketRays], scale[kPacketRays];
+  float t_max[kPacketRays];
+  unsigned along[3][kGroups];
+  float lowest[3], highest[3];  ///< where the rays start
+};
+
 /// 64 rays and their best hits as structure of arrays: element group * kLanes + lane.
 struct alignas(64) RayPacket {
   float origin[3][kPacketRays];
@@ -33,6 +44,7 @@ struct alignas(64) RayPacket {
   float inverse[3][kPacketRays];
   /// Where the rays come from and the hits go to. What a packet has too few of repeats others.
   std::uint32_t place[kPacketRays];
+  SettlingRays settling;
 };
 
 /// Four rows of four floats become four columns.
@@ -51,14 +63,70 @@ struct alignas(64) RayPacket {
 #endif
 }
 
+#if defined(__AVX2__)
+/// The same for each four lanes of wider registers.
+[[gnu::always_inline]] inline void transpose(Floats<kLanes>& a, Floats<kLanes>& b,
+                                             Floats<kLanes>& c, Floats<kLanes>& d) {
+#if defined(ENCORE_AVX512)
+#define ENCORE_WIDE(NAME) _mm512_##NAME
+#else
+#define ENCORE_WIDE(NAME) _mm256_##NAME
+#endif
+  const auto low_ab = ENCORE_WIDE(castps_pd)(ENCORE_WIDE(unpacklo_ps)(a.v, b.v));
+  const auto low_cd = ENCORE_WIDE(castps_pd)(ENCORE_WIDE(unpacklo_ps)(c.v, d.v));
+  const auto high_ab = ENCORE_WIDE(castps_pd)(ENCORE_WIDE(unpackhi_ps)(a.v, b.v));
+  const auto high_cd = ENCORE_WIDE(castps_pd)(ENCORE_WIDE(unpackhi_ps)(c.v, d.v));
+  a.v = ENCORE_WIDE(castpd_ps)(ENCORE_WIDE(unpacklo_pd)(low_ab, low_cd));
+  b.v = ENCORE_WIDE(castpd_ps)(ENCORE_WIDE(unpackhi_pd)(low_ab, low_cd));
+  c.v = ENCORE_WIDE(castpd_ps)(ENCORE_WIDE(unpacklo_pd)(high_ab, high_cd));
+  d.v = ENCORE_WIDE(castpd_ps)(ENCORE_WIDE(unpackhi_pd)(high_ab, high_cd));
+#undef ENCORE_WIDE
+}
+#endif
+
+/// A register of fours from, or to, address(0), address(1), …
+template <class Address>
+[[gnu::always_inline]] inline Floats<kLanes> load_fours(const Address& address) {
+  const auto four = [&](int i) __attribute__((always_inline)) {
+    return Floats<4>::load(address(i));
+  };
+#if defined(ENCORE_AVX512)
+  const __m512 one = _mm512_castps128_ps512(four(0).v);
+  const __m512 two = _mm512_insertf32x4(one, four(1).v, 1);
+  return {_mm512_insertf32x4(_mm512_insertf32x4(two, four(2).v, 2), four(3).v, 3)};
+#elif defined(__AVX2__)
+  return {_mm256_insertf128_ps(_mm256_castps128_ps256(four(0).v), four(1).v, 1)};
+#else
+  return four(0);
+#endif
+}
+template <class Address>
+[[gnu::always_inline]] inline void store_fours(const Floats<kLanes>& fours,
+                                               const Address& address) {
+#if defined(ENCORE_AVX512)
+  Floats<4>{_mm512_castps512_ps128(fours.v)}.store(address(0));
+  Floats<4>{_mm512_extractf32x4_ps(fours.v, 1)}.store(address(1));
+  Floats<4>{_mm512_extractf32x4_ps(fours.v, 2)}.store(address(2));
+  Floats<4>{_mm512_extractf32x4_ps(fours.v, 3)}.store(address(3));
+#elif defined(__AVX2__)
+  Floats<4>{_mm256_castps256_ps128(fours.v)}.store(address(0));
+  Floats<4>{_mm256_extractf128_ps(fours.v, 1)}.store(address(1));
+#else
+  fours.store(address(0));
+#endif
+}
+
 /// Fills in rays, places must be there, and no hits.
 inline void load_rays(const scene::Ray* rays, RayPacket& packet) {
-  for (int i = 0; i < kPacketRays; i += 4) {
-    Floats<4> low[4], high[4];
+  using F = Floats<kLanes>;
+  for (int i = 0; i < kPacketRays; i += kLanes) {
+    F low[4], high[4];
     for (int k = 0; k < 4; ++k) {
-      const auto* ray = reinterpret_cast<const float*>(rays + packet.place[i + k]);
-      low[k] = Floats<4>::load(ray);
-      high[k] = Floats<4>::load(ray + 4);
+      const auto ray = [&](int four) __attribute__((always_inline)) {
+        return reinterpret_cast<const float*>(rays + packet.place[i + 4 * four + k]);
+      };
+      low[k] = load_fours(ray);
+      high[k] = load_fours([&](int four) __attribute__((always_inline)) { return ray(four) + 4; });
     }
     transpose(low[0], low[1], low[2], low[3]);
     transpose(high[0], high[1], high[2], high[3]);
@@ -68,21 +136,54 @@ inline void load_rays(const scene::Ray* rays, RayPacket& packet) {
     }
     low[3].store(packet.t_min + i);
     high[3].store(packet.t + i);
-    Floats<4>::all_bits(scene::kNoHit).store(packet.triangle + i);
-    Floats<4>::all(0.0F).store(packet.u + i);
-    Floats<4>::all(0.0F).store(packet.v + i);
+    F::all_bits(scene::kNoHit).store(packet.triangle + i);
+    F::all(0.0F).store(packet.u + i);
+    F::all(0.0F).store(packet.v + i);
   }
 }
 
+/// Rays that end before they begin hit nothing: they get the way of one that may, so that they do
+/// not keep a packet from going together. False if there is none.
+inline bool fill_idle_rays(RayPacket& packet) {
+  using F = Floats<kLanes>;
+  constexpr unsigned kAll = (1U << kLanes) - 1U;
+  const auto active = [&](int i) __attribute__((always_inline)) {
+    return F::load(packet.t_min + i) < F::load(packet.t + i);
+  };
+  unsigned all = kAll;
+  int any = -1;
+  for (int i = kPacketRays; (i -= kLanes) >= 0;) {
+    const unsigned rays = active(i).bits();
+    all &= rays;
+    if (rays != 0) any = i + __builtin_ctz(rays);
+  }
+  if (all == kAll) return true;
+  if (any < 0) return false;
+  for (int i = 0; i < kPacketRays; i += kLanes) {
+    const Mask<kLanes> rays = active(i);
+    for (int axis = 0; axis < 3; ++axis) {
+      float* const origin = packet.origin[axis];
+      float* const direction = packet.direction[axis];
+      // The one that the others follow comes to stand where it is.
+      select(rays, F::load(origin + i), F::all(origin[any])).store(origin + i);
+      select(rays, F::load(direction + i), F::all(direction[any])).store(direction + i);
+    }
+  }
+  return true;
+}
+
 inline void store_hits(const RayPacket& packet, scene::Hit* hits) {
-  for (int i = 0; i < kPacketRays; i += 4) {
-    Floats<4> t = Floats<4>::load(packet.t + i), triangle = Floats<4>::load(packet.triangle + i);
-    Floats<4> u = Floats<4>::load(packet.u + i), v = Floats<4>::load(packet.v + i);
-    transpose(t, triangle, u, v);
-    t.store(hits + packet.place[i]);
-    triangle.store(hits + packet.place[i + 1]);
-    u.store(hits + packet.place[i + 2]);
-    v.store(hits + packet.place[i + 3]);
+  using F = Floats<kLanes>;
+  for (int i = 0; i < kPacketRays; i += kLanes) {
+    F row[4] = {F::load(packet.t + i), F::load(packet.triangle + i), F::load(packet.u + i),
+                F::load(packet.v + i)};
+    transpose(row[0], row[1], row[2], row[3]);
+    for (int k = 0; k < 4; ++k) {
+      store_fours(
+          row[k], [&](int four) __attribute__((always_inline)) {
+            return hits + packet.place[i + 4 * four + k];
+          });
+    }
   }
 }
 

@@ -151,7 +151,7 @@ class PacketTrace {
     for (std::uint32_t b = first; b < end; ++b) {
       const std::uint32_t* const ids = scene_.tree.ids + TriangleBlock::kSize * b;
       PreparedBlock block;
-      prepare<kCommon, Tester::kFilter>(scene_.tree.blocks[b], ids, packet_.origin[0], block);
+      prepare<kCommon, Tester::kFilter>(scene_.tree.blocks[b], ids, packet_, block);
       for (int i = 0; i < count; ++i) {
         const GroupRays rays{packet_, active_groups[i] * kLanes};
         if (Tester::template test<kAnyHit, kCommon>(scene_, block, ids, rays, active[i])) {

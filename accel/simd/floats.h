@@ -180,6 +180,10 @@ struct Mask {
   friend Mask<N> operator==(Floats a, Floats b) {        \
     return {PREFIX##_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; \
   }
+#define ENCORE_SAME_BITS(N, PREFIX, TO_INTEGERS)                                                  \
+  friend Mask<N> same_bits(Floats a, Floats b) {                                                  \
+    return {PREFIX##_cmpeq_epi32_mask(PREFIX##_##TO_INTEGERS(a.v), PREFIX##_##TO_INTEGERS(b.v))}; \
+  }
 #define ENCORE_SELECT(N, PREFIX, MASK)                                 \
   friend Floats select(Mask<N> m, Floats a, Floats b) {                \
     return {PREFIX##_mask_blend_ps(static_cast<MASK>(m.m), b.v, a.v)}; \
@@ -188,18 +192,21 @@ template <>
 struct Floats<4> {
   ENCORE_FLOATS_ARITHMETIC(4, __m128, _mm)
   ENCORE_FLOATS_COMPARISONS(4, _mm)
+  ENCORE_SAME_BITS(4, _mm, castps_si128)
   ENCORE_SELECT(4, _mm, __mmask8)
 };
 template <>
 struct Floats<8> {
   ENCORE_FLOATS_ARITHMETIC(8, __m256, _mm256)
   ENCORE_FLOATS_COMPARISONS(8, _mm256)
+  ENCORE_SAME_BITS(8, _mm256, castps_si256)
   ENCORE_SELECT(8, _mm256, __mmask8)
 };
 template <>
 struct Floats<16> {
   ENCORE_FLOATS_ARITHMETIC(16, __m512, _mm512)
   ENCORE_FLOATS_COMPARISONS(16, _mm512)
+  ENCORE_SAME_BITS(16, _mm512, castps_si512)
   ENCORE_SELECT(16, _mm512, __mmask16)
 };
 #else
@@ -211,6 +218,10 @@ struct Floats<4> {
   friend Mask<4> operator>(Floats a, Floats b) { return b < a; }
   friend Mask<4> operator>=(Floats a, Floats b) { return b <= a; }
   friend Mask<4> operator==(Floats a, Floats b) { return {_mm_cmpeq_ps(a.v, b.v)}; }
+  /// Where all bits are the same, whatever they stand for.
+  friend Mask<4> same_bits(Floats a, Floats b) {
+    return {_mm_castsi128_ps(_mm_cmpeq_epi32(_mm_castps_si128(a.v), _mm_castps_si128(b.v)))};
+  }
   /// a where m, else b
   friend Floats select(Mask<4> m, Floats a, Floats b) { return {_mm_blendv_ps(b.v, a.v, m.m)}; }
 };
@@ -223,6 +234,10 @@ struct Floats<8> {
   friend Mask<8> operator>(Floats a, Floats b) { return b < a; }
   friend Mask<8> operator>=(Floats a, Floats b) { return b <= a; }
   friend Mask<8> operator==(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
+  friend Mask<8> same_bits(Floats a, Floats b) {
+    const __m256i x = _mm256_castps_si256(a.v), y = _mm256_castps_si256(b.v);
+    return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(x, y))};
+  }
   friend Floats select(Mask<8> m, Floats a, Floats b) { return {_mm256_blendv_ps(b.v, a.v, m.m)}; }
 };
 #endif
@@ -278,6 +293,11 @@ struct Floats<4> {
   friend Mask<4> operator>=(const Floats& a, const Floats& b) { return b <= a; }
   friend Mask<4> operator==(const Floats& a, const Floats& b) {
     return ask(a, b, [](float x, float y) { return x == y; });
+  }
+  friend Mask<4> same_bits(const Floats& a, const Floats& b) {
+    return ask(a, b, [](float x, float y) {
+      return __builtin_bit_cast(std::uint32_t, x) == __builtin_bit_cast(std::uint32_t, y);
+    });
   }
   friend Floats select(const Mask<4>& m, const Floats& a, const Floats& b) {
     Floats r = b;
@@ -343,6 +363,7 @@ struct Floats {
   ENCORE_HALVES(Mask<N>, operator>)
   ENCORE_HALVES(Mask<N>, operator>=)
   ENCORE_HALVES(Mask<N>, operator==)
+  ENCORE_HALVES(Mask<N>, same_bits)
 #undef ENCORE_HALVES
   friend Floats abs(const Floats& a) {
     return {abs(a.low), abs(a.high)};
@@ -355,6 +376,7 @@ struct Floats {
 
 #undef ENCORE_FLOATS_ARITHMETIC
 #undef ENCORE_FLOATS_COMPARISONS
+#undef ENCORE_SAME_BITS
 #undef ENCORE_SELECT
 
 }  // namespace encore::accel::ENCORE_ISA

@@ -1,65 +1,11 @@
 // Rays that go through bvh-sah side by side find what they find alone, bit for bit: every
 // intersection mode and instruction set, rectangles of any shape, coherent or not.
-#include "accel/wide/wide_bvh.h"
-#include "cases.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstring>
-#include <functional>
-#include <random>
+#include "tiles.h"
 
 namespace encore::accel::test {
 namespace {
 
-struct Tile {
-  std::string name;
-  std::size_t width = 0;
-  std::vector<Ray> rays;
-};
-
-/// A rectangle of rays; ray_at() takes places in [0, 1].
-Tile make_tile(const std::string& name, std::size_t width, std::size_t height,
-               const std::function<Ray(float, float)>& ray_at) {
-  Tile tile{name + ", " + std::to_string(width) + " x " + std::to_string(height), width, {}};
-  for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t x = 0; x < width; ++x) {
-      tile.rays.push_back(ray_at((static_cast<float>(x) + 0.5F) / static_cast<float>(width),
-                                 (static_cast<float>(y) + 0.5F) / static_cast<float>(height)));
-    }
-  }
-  return tile;
-}
-
-struct Look {
-  glm::vec3 middle{0.0F}, half{1.0F};
-  float size = 1.0F;
-};
-
-Look look_at(const std::vector<Triangle>& triangles) {
-  if (triangles.empty()) return {};
-  scene::Bounds all;
-  for (const Triangle& t : triangles) all.extend(scene::bounds_of(t));
-  Look look;
-  look.middle = all.min * 0.5F + all.max * 0.5F;
-  look.half = all.max * 0.5F - all.min * 0.5F;
-  look.size = std::max({look.half.x, look.half.y, look.half.z, 0x1p-40F});
-  return look;
-}
-
 /// Pinhole cameras that look along an axis, obliquely and from within, at a part of the scene.
-Ray through(const glm::vec3& eye, const glm::vec3& target) {
-  Ray ray;
-  ray.origin = eye;
-  ray.direction = target - eye;
-  const glm::vec3& d = ray.direction;
-  const float largest = std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)});
-  if (largest > 0.0F) ray.direction = d * (1.0F / largest);
-  if (!(largest > 0.0F)) ray.direction = {0.0F, 0.0F, -1.0F};
-  return ray;
-}
-
 std::vector<Tile> camera_tiles(const Look& look) {
   std::vector<Tile> tiles;
   const glm::vec3 eyes[] = {{0.0F, 0.0F, 3.0F}, {-2.5F, 1.5F, 0.5F}, {0.01F, -0.02F, 0.0F}};
@@ -127,34 +73,7 @@ class EveryTile : public testing::TestWithParam<std::size_t> {
     wide_.build(triangles_);
   }
 
-  void expect_same(const Tile& tile) {
-    const std::size_t count = tile.rays.size();
-    std::vector<Hit> alone(count), together(count);
-    std::vector<std::uint8_t> alone_blocked(count), together_blocked(count);
-    for (const IntersectionMode mode : all_intersection_modes()) {
-      wide_.set_intersection(mode);
-      wide_.set_isa(Isa::portable);
-      wide_.intersect(tile.rays, alone);
-      wide_.occluded(tile.rays, alone_blocked);
-      for (const Isa isa : available_isas()) {
-        wide_.set_isa(isa);
-        wide_.intersect_tile(tile.rays, tile.width, together);
-        wide_.occluded_tile(tile.rays, tile.width, together_blocked);
-        std::size_t wrong = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-          const bool same = std::memcmp(&alone[i], &together[i], sizeof(Hit)) == 0;
-          if (same && alone_blocked[i] == together_blocked[i]) continue;
-          if (++wrong > 1) continue;
-          ADD_FAILURE() << name_ << ", " << tile.name << ", " << to_string(mode) << ", "
-                        << to_string(isa) << ", ray " << i << ": alone " << alone[i].triangle
-                        << " at " << alone[i].t << ", blocked " << int{alone_blocked[i]}
-                        << ", together " << together[i].triangle << " at " << together[i].t
-                        << ", blocked " << int{together_blocked[i]};
-        }
-        EXPECT_EQ(wrong, 0U) << "of " << count;
-      }
-    }
-  }
+  void expect_same(const Tile& tile) { test::expect_same(wide_, name_, tile); }
 
   std::string name_;
   std::vector<Triangle> triangles_;

@@ -1,0 +1,268 @@
+#pragma once
+
+#include "accel/kernels/watertight.h"
+#include "accel/kernels/wide_tile_frustum.h"
+#include "accel/kernels/wide_tile_triangles.h"
+#include "accel/triangle_hit.h"
+#include "accel/triangle_settle.h"
+
+namespace encore::accel::ENCORE_ISA {
+
+/// Fills in RayPacket::settling, before any hit, from directions whose components all lie far from
+/// the ends of the range, as PacketFrustums::set() makes sure of.
+inline void set_settling(RayPacket& packet, bool common_origin) {
+  using F = Floats<kLanes>;
+  SettlingRays& to = packet.settling;
+  for (int i = 0; i < kPacketRays; i += kLanes) {
+    const Points<kLanes> d = Points<kLanes>::load(packet.direction[0] + i, kPacketRays);
+    const F x = abs(d.x), y = abs(d.y), z = abs(d.z);
+    // Of the largest number the exponent alone, and its reciprocal, are powers of two.
+    const F power = max(x, max(y, z)) & F::all_bits(0x7F800000U);
+    const F unit = F::all(1.0F) / power;
+    (d.x * unit).store(to.direction[0] + i);
+    (d.y * unit).store(to.direction[1] + i);
+    (d.z * unit).store(to.direction[2] + i);
+
+    // WatertightRay's axes and numbers.
+    const Mask<kLanes> is_x = (x > y) & (x > z);
+    const Mask<kLanes> is_y = without(y > z, x > y);
+    const F dx = select(is_x, d.y, select(is_y, d.z, d.x));
+    const F dy = select(is_x, d.z, select(is_y, d.x, d.y));
+    const F dz = select(is_x, d.x, select(is_y, d.y, d.z));
+    (dx / dz).store(to.shear_x + i);
+    (dy / dz).store(to.shear_y + i);
+    (F::all(1.0F) / dz).store(to.scale + i);
+    F::load(packet.t + i).store(to.t_max + i);
+    constexpr unsigned kAll = (1U << kLanes) - 1U;
+    to.along[0][i / kLanes] = is_x.bits();
+    to.along[1][i / kLanes] = is_y.bits();
+    to.along[2][i / kLanes] = ~(is_x.bits() | is_y.bits()) & kAll;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* const origin = packet.origin[axis];
+    to.lowest[axis] = to.highest[axis] = origin[0];
+    if (common_origin) continue;
+    F low = F::load(origin), high = low;
+    for (int i = kLanes; i < kPacketRays; i += kLanes) {
+      low = min(low, F::load(origin + i));
+      high = max(high, F::load(origin + i));
+    }
+    to.lowest[axis] = least_of(low);
+    to.highest[axis] = greatest_of(high);
+  }
+}
+
+/// Fills in what WatertightTester's arithmetic takes of a block's triangles alone, once the first
+/// of them is not certainly missed.
+template <bool kCommon>
+[[gnu::always_inline]] inline void settle_block(PreparedBlock& block, const float* origin) {
+  if (block.settled) return;
+  block.settled = true;
+  const auto row = [&](int at) __attribute__((always_inline)) {
+    return Points<4>::load(block.row[at], 4);
+  };
+  const Points<4> e1 = row(PreparedBlock::kE1), e2 = row(PreparedBlock::kE2);
+  const Points<4> n = cross(e1, e2);
+  block.store(PreparedBlock::kNormal, n);
+  const Floats<4> edge = max(largest(e1), largest(e2));
+  if constexpr (kCommon) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Floats<4> o = Floats<4>::all(origin[axis * kPacketRays]);
+      Floats<4> seen[3];
+      for (int vertex = 0; vertex < 3; ++vertex) {
+        seen[vertex] = block.coordinates(vertex, axis) - o;
+        seen[vertex].store(block.row[PreparedBlock::kSeen + 3 * vertex + axis]);
+      }
+      largest(Points<4>{seen[0], seen[1], seen[2]}).store(block.row[PreparedBlock::kAlong + axis]);
+    }
+    const Points<4> a = row(PreparedBlock::kSeen);
+    const WatertightHeight<4> height = watertight_height(n.x * a.x, n.y * a.y, n.z * a.z, edge);
+    height.above.store(block.row[PreparedBlock::kAbove]);
+    block.precise_heights = height.precise.bits();
+  } else {
+    edge.store(block.row[PreparedBlock::kLongest]);
+  }
+}
+
+/// Finds the triangle that decide_hit() prefers, in single precision where that is certain, like
+/// DoubtingBlocks (block_testers.h) does for one ray: what TriangleFilter's test
+/// (triangle_filter.h) does not throw out, WatertightTester's judges (triangle_watertight.h), and
+/// what that leaves in doubt, double precision. The hit is WatertightTester's; or, if kPrecise,
+/// only its triangle is to be used, and the rest comes from decide_hit() once it is certain which
+/// one it is (wide_tile_exact.h).
+template <bool kPrecise>
+struct DoubtingPackets {
+  static constexpr bool kFilter = true;
+  static constexpr float kReach = 1.0F + 2 * ENCORE_WATERTIGHT_DISTANCE;
+
+  template <bool kAnyHit, bool kCommon>
+  [[gnu::always_inline]] static bool test(const TraceScene& scene, PreparedBlock& block,
+                                          const std::uint32_t* ids, const GroupRays& rays,
+                                          Mask<kLanes> active) {
+    using F = Floats<kLanes>;
+    const F sign_bit = F::all(-0.0F);
+    const Points<kLanes> origin = kCommon ? Points<kLanes>{} : rays.origin();
+    const Points<kLanes> direction = rays.filter_direction();
+    bool changed = false;
+    for (int lane = 0; lane < block.count; ++lane) {
+      Points<kLanes> s;
+      const Weights w = weigh<kCommon>(block, lane, origin, direction, s);
+      const F error = F::all(block.row[PreparedBlock::kError][lane]);
+      const F minus_error = error ^ sign_bit;
+      Mask<kLanes> outside =
+          (w.u < minus_error) | (w.v < minus_error) | (w.u + w.v > w.size + error);
+      if constexpr (!kCommon) {
+        // Most rays that leave a surface have its triangles right behind them.
+        outside =
+            outside | ((w.distance ^ w.sign) < F::all(block.row[PreparedBlock::kBehind][lane]));
+      }
+      const Mask<kLanes> left = without(active, outside & (w.size > error));
+      if (left.bits() == 0) continue;
+      settle_block<kCommon>(block, rays.packet.origin[0]);
+      // The bound is as good for certain hits as for certain misses.
+      const Mask<kLanes> inside = (w.u > error) & (w.v > error) & (w.u + w.v < w.size - error);
+      for (int kz = 0; kz < 3; ++kz) {
+        const unsigned along = rays.packet.settling.along[kz][rays.first / kLanes];
+        if (along == 0) continue;
+        const unsigned hit = judge<kAnyHit, kCommon>(
+            scene, block, lane, ids[lane], rays, left & Mask<kLanes>::of_bits(along), inside, kz);
+        if (hit == 0) continue;
+        changed = true;
+        if constexpr (kAnyHit) {
+          active = without(active, Mask<kLanes>::of_bits(hit));
+          if (active.bits() == 0) return true;
+        }
+      }
+    }
+    return changed;
+  }
+
+ private:
+  /// Holds a triangle against rays whose axis is kz; bits of those that hit it.
+  template <bool kAnyHit, bool kCommon>
+  [[gnu::always_inline]] static unsigned judge(const TraceScene& scene, const PreparedBlock& block,
+                                               int lane, std::uint32_t id, const GroupRays& rays,
+                                               Mask<kLanes> left, Mask<kLanes> inside, int kz) {
+    using F = Floats<kLanes>;
+    RayPacket& packet = rays.packet;
+    const SettlingRays& settling = packet.settling;
+    const int first = rays.first;
+    const int kx = kz == 2 ? 0 : kz + 1;
+    const int ky = kx == 2 ? 0 : kx + 1;
+    const F t_min = F::load(packet.t_min + first);
+    const F best = F::load(packet.t + first);
+    const WatertightStretch<kLanes> stretch{
+        F::load(settling.shear_x + first), F::load(settling.shear_y + first),
+        F::load(settling.scale + first), t_min, F::load(settling.t_max + first)};
+    // From here on axes are in the order kx, ky, kz.
+    const auto turned = [&](const auto& at) __attribute__((always_inline)) {
+      return Points<kLanes>{at(kx), at(ky), at(kz)};
+    };
+    const auto seen = [&](int vertex) __attribute__((always_inline)) {
+      return turned([&](int axis) __attribute__((always_inline)) {
+        if constexpr (kCommon) {
+          return F::all(block.row[PreparedBlock::kSeen + 3 * vertex + axis][lane]);
+        } else {
+          return block.template coordinate<kLanes>(vertex, axis, lane) -
+                 F::load(packet.origin[axis] + first);
+        }
+      });
+    };
+    const Points<kLanes> a = seen(0), b = seen(1), c = seen(2);
+    WatertightWeights<kLanes> w;
+    w.candidates = w.sure = inside;
+    if (!kPrecise || without(left, inside).bits() != 0) {
+      F along;
+      if constexpr (kCommon) {
+        along = F::all(block.row[PreparedBlock::kAlong + kz][lane]);
+      } else {
+        along = largest(Points<kLanes>{a.z, b.z, c.z});
+      }
+      w = watertight_weights(a, b, c, along, stretch.shear_x, stretch.shear_y);
+    }
+    left = left & w.candidates;
+    if (left.bits() == 0) return 0;
+    const auto normal = [&](int axis) __attribute__((always_inline)) {
+      return F::all(block.row[PreparedBlock::kNormal + axis][lane]);
+    };
+    WatertightHeight<kLanes> height;
+    if constexpr (kCommon) {
+      height.above = F::all(block.row[PreparedBlock::kAbove][lane]);
+      const bool precise = (block.precise_heights >> lane & 1U) != 0;
+      height.precise = Mask<kLanes>::of_bits(precise ? ~0U : 0U);
+      height.has_sign = Mask<kLanes>::of_bits(0);
+      height.least_slope = F::all(0.0F);
+    } else {
+      const F* const terms[3] = {&a.x, &a.y, &a.z};
+      const int x = kz == 2 ? 0 : kz == 0 ? 2 : 1;
+      height = watertight_height(normal(0) * *terms[x], normal(1) * *terms[x == 2 ? 0 : x + 1],
+                                 normal(2) * *terms[x == 0 ? 2 : x - 1],
+                                 F::all(block.row[PreparedBlock::kLongest][lane]));
+    }
+    const WatertightDistances<kLanes> distances =
+        watertight_distances(height, turned(normal), stretch);
+    left = without(left, w.sure & distances.behind);
+    const F& t = distances.t;
+    Mask<kLanes> sure = left & w.sure & distances.sure;
+    // The best hit of a ray that has none yet is t_max, which no sure distance is near.
+    const Mask<kLanes> near = abs(t - best) <= F::all(4 * ENCORE_WATERTIGHT_DISTANCE) * t;
+    Mask<kLanes> hit = sure & (t > t_min) & (t < best);
+    if constexpr (kAnyHit) {
+      const Mask<kLanes> ahead = left & w.sure & distances.ahead;
+      hit = hit | ahead;
+      sure = sure | ahead;
+    } else {
+      hit = without(hit, near);
+    }
+    if constexpr (kAnyHit) {
+      select(hit, F::all(-__builtin_inff()), best).store(packet.t + first);
+    } else {
+      select(hit, t, best).store(packet.t + first);
+    }
+    select(hit, F::all_bits(id), F::load(packet.triangle + first)).store(packet.triangle + first);
+    if constexpr (!kAnyHit && !kPrecise) {
+      const F inverse = F::all(1.0F) / (w.a + w.b + w.c);
+      select(hit, w.b * inverse, F::load(packet.u + first)).store(packet.u + first);
+      select(hit, w.c * inverse, F::load(packet.v + first)).store(packet.v + first);
+    }
+    unsigned changed = hit.bits();
+    if (kPrecise && !kAnyHit && changed != 0) __builtin_prefetch(scene.triangles + id);
+    unsigned doubts = without(left, sure).bits();
+    if constexpr (!kAnyHit) doubts |= (sure & near).bits();
+    for (; doubts != 0; doubts &= doubts - 1) {
+      const int ray = __builtin_ctz(doubts);
+      if (settle<kAnyHit>(scene, packet, first + ray, id)) changed |= 1U << ray;
+    }
+    return changed;
+  }
+
+  /// Holds a triangle in doubt against the best hit of one ray.
+  template <bool kAnyHit>
+  [[gnu::noinline]] static bool settle(const TraceScene& scene, RayPacket& packet, int i,
+                                       std::uint32_t id) {
+    const std::uint32_t now = packet.triangle[i];
+    if (now == id || (kAnyHit && now != scene::kNoHit)) return false;
+    const scene::Ray& ray = scene.rays[packet.place[i]];
+    scene::Hit best;
+    if constexpr (kAnyHit || kPrecise) {
+      best.t = ray.t_max;
+      best.triangle = scene::kNoHit;
+      best.u = best.v = 0.0F;
+      if (now != scene::kNoHit) decide_hit(ray, scene.triangles[now], now, best);
+      if (!decide_hit(ray, scene.triangles[id], id, best)) return false;
+    } else {
+      best.t = packet.t[i];
+      best.triangle = now;
+      best.u = packet.u[i];
+      best.v = packet.v[i];
+      if (!settle_watertight(ray, scene.triangles, id, best)) return false;
+    }
+    packet.t[i] = kAnyHit ? -__builtin_inff() : best.t;
+    packet.triangle[i] = id;
+    packet.u[i] = best.u;
+    packet.v[i] = best.v;
+    return true;
+  }
+};
+
+}  // namespace encore::accel::ENCORE_ISA
