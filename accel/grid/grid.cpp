@@ -1,6 +1,7 @@
 #include "accel/grid/grid.h"
 
 #include "accel/grid/prefetch.h"
+#include "accel/large_pages.h"
 #include "shaders/shared/bindings.h"
 
 #include <algorithm>
@@ -72,6 +73,7 @@ void Grid::build_over(std::span<const Triangle> triangles, BuildMeter& meter,
     const std::size_t count = list_entries(meter);
     meter.report(kListDone);
     references_.reset(count, mode_, allocations_);
+    ask_for_large_pages(references_.bytes());
     insert_entries(count, meter);
   }
 
@@ -96,6 +98,7 @@ void Grid::choose_cells(const Bounds& bounds, BuildMeter& meter, const Workers& 
   const std::uint64_t limit = grid_reference_limit(settings_, triangles_.size());
   limited_ = false;
   ranges_.reset(triangles_.size(), mode_, allocations_);
+  ask_for_large_pages(ranges_.bytes());
   std::uint32_t cells = grid_cells_per_axis(settings_, triangles_.size());
   std::uint64_t entries = 0;
   while (true) {
@@ -111,6 +114,7 @@ void Grid::choose_cells(const Bounds& bounds, BuildMeter& meter, const Workers& 
   meter.report(kRangesDone);
   const std::size_t parts = (triangles_.size() + kPart - 1) / kPart;
   entries_.reset(entries + std::max<std::size_t>(parts, 1) * kEntryPadding, mode_, allocations_);
+  if (kind_ == StructureKind::grid_box) ask_for_large_pages(entries_.bytes());
 }
 
 // Returns how many cells the ranges of these triangles hold together.

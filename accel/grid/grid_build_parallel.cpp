@@ -3,6 +3,7 @@
 // as they do in the list.
 #include "accel/grid/grid.h"
 #include "accel/grid/prefetch.h"
+#include "accel/large_pages.h"
 #include "accel/shared_meter.h"
 
 #include <algorithm>
@@ -79,6 +80,7 @@ void Grid::insert_entries_together(BuildMeter& meter, const Workers& workers) {
   std::size_t count = 0;
   for (const Part& part : parts_) count += part.count;
   references_.reset(count, mode_, allocations_);
+  ask_for_large_pages(references_.bytes());
   const std::size_t chunks = std::min(static_cast<std::size_t>(workers.threads()), kMostChunks);
   const std::size_t cells = layout_.cell_count();
   cursors_.reset(chunks * cells, mode_, allocations_);

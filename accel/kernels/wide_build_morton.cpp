@@ -6,8 +6,6 @@ namespace encore::accel::ENCORE_ISA {
 
 namespace {
 
-constexpr std::uint32_t kLeaf = TriangleBlock::kSize;
-
 class MortonSubtree {
  public:
   MortonSubtree(const WideBuildArrays& arrays, WideSubtree& subtree)
@@ -30,7 +28,7 @@ class MortonSubtree {
     }
     for (std::uint32_t i = count; i < WideTree::kWidth; ++i) node.child[i] = WideChild::kNoChild;
     for (std::uint32_t i = 0; i < count; ++i) {
-      if (parts[i].end - parts[i].begin <= kLeaf) {
+      if (parts[i].end - parts[i].begin <= WideTopology::kLargestLeaf) {
         node.child[i] = leaf(parts[i]);
       } else {
         node.child[i] = subtree_.nodes;
@@ -44,7 +42,7 @@ class MortonSubtree {
   static std::uint32_t widest_of(const WideKeyRange* parts, std::uint32_t count) {
     std::uint32_t widest = count, level = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-      if (parts[i].end - parts[i].begin > kLeaf && parts[i].level >= level) {
+      if (parts[i].divisible() && parts[i].level >= level) {
         level = parts[i].level;
         widest = i;
       }
@@ -54,6 +52,7 @@ class MortonSubtree {
 
   std::uint32_t leaf(const WideKeyRange& range) {
     ++subtree_.leaves;
+    subtree_.blocks += WideTopology::blocks(range.end - range.begin);
     subtree_.references += range.end - range.begin;
     const std::uint64_t* const keys = arrays_.keys[range.array];
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
@@ -70,7 +69,7 @@ class MortonSubtree {
 }  // namespace
 
 void build_morton_subtree(const WideBuildArrays& arrays, WideSubtree& subtree) {
-  subtree.nodes = subtree.leaves = subtree.references = 0;
+  subtree.nodes = subtree.leaves = subtree.blocks = subtree.references = 0;
   subtree.deepest = subtree.depth;
   const WideRange& range = subtree.range;
   MortonSubtree(arrays, subtree)

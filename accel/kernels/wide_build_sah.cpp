@@ -36,7 +36,7 @@ class SahSubtree {
     }
     for (std::uint32_t i = count; i < WideTree::kWidth; ++i) node.child[i] = WideChild::kNoChild;
     for (std::uint32_t i = 0; i < count; ++i) {
-      if (parts[i].end - parts[i].begin <= kLeaf) {
+      if (parts[i].end - parts[i].begin <= WideTopology::kLargestLeaf) {
         node.child[i] = leaf(parts[i]);
       } else {
         node.child[i] = subtree_.nodes;
@@ -61,6 +61,7 @@ class SahSubtree {
 
   std::uint32_t leaf(const WideRange& range) {
     ++subtree_.leaves;
+    subtree_.blocks += WideTopology::blocks(range.end - range.begin);
     subtree_.references += range.end - range.begin;
     const WideItem* const items = arrays_.items[range.array];
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
@@ -145,7 +146,7 @@ class SahSubtree {
 }  // namespace
 
 void build_sah_subtree(const WideBuildArrays& arrays, WideSubtree& subtree) {
-  subtree.nodes = subtree.leaves = subtree.references = 0;
+  subtree.nodes = subtree.leaves = subtree.blocks = subtree.references = 0;
   subtree.deepest = subtree.depth;
   SahSubtree(arrays, subtree).build(subtree.range, subtree.depth);
 }

@@ -28,6 +28,7 @@ void WideBuildMemory::release() {
   for (auto& array : keys) array.release();
   part_boxes.release();
   part_bins.release();
+  part_slabs.release();
   leaf_boxes.release();
   runs.release();
   digits.release();

@@ -33,13 +33,19 @@ struct alignas(32) WideBox {
 struct WideTopology {
   std::uint32_t child[WideTree::kWidth];
 
-  static constexpr std::uint32_t kMostReferences = 1U << 29;
-  /// `count` 1 to 4 references from `first` on, in the builder's order.
-  static std::uint32_t leaf(std::uint32_t first, std::uint32_t count) {
-    return WideChild::kLeafBit | (count - 1) << 29 | first;
+  static constexpr std::uint32_t kMostReferences = 1U << 28;
+  /// Of a leaf: two blocks cost a ray no more than a node with two leaves of one.
+  static constexpr std::uint32_t kLargestLeaf = 2 * TriangleBlock::kSize;
+
+  /// `count` 1 to kLargestLeaf references from `first` on, in the builder's order.
+  [[gnu::always_inline]] static std::uint32_t leaf(std::uint32_t first, std::uint32_t count) {
+    return WideChild::kLeafBit | (count - 1) << 28 | first;
   }
   static std::uint32_t first(std::uint32_t child) { return child & (kMostReferences - 1); }
-  static std::uint32_t count(std::uint32_t child) { return (child >> 29 & 3U) + 1; }
+  static std::uint32_t count(std::uint32_t child) { return (child >> 28 & 7U) + 1; }
+  [[gnu::always_inline]] static std::uint32_t blocks(std::uint32_t count) {
+    return (count + TriangleBlock::kSize - 1) / TriangleBlock::kSize;
+  }
 };
 
 /// Items [begin, end) of one of two arrays: all that a split has to know of them.
@@ -82,6 +88,7 @@ struct WideSubtree {
   // What comes out:
   std::uint32_t nodes = 0;
   std::uint32_t leaves = 0;
+  std::uint32_t blocks = 0;
   std::uint32_t references = 0;
   std::uint32_t deepest = 0;
 };

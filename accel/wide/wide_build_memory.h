@@ -3,6 +3,7 @@
 #include "accel/array.h"
 #include "accel/wide/wide_build.h"
 #include "accel/wide/wide_build_kernels.h"
+#include "accel/wide/wide_spatial_parts.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -40,13 +41,14 @@ inline void extend(WideBox& box, const WideBox& by) {
 
 /// References that a tree over so many triangles may have after long ones were split.
 constexpr std::uint64_t most_wide_references(std::uint64_t triangles) {
-  return triangles + triangles / 2;
+  return std::min<std::uint64_t>(triangles + triangles / 2, WideTopology::kMostReferences);
 }
 
 /// Ranges of more than four references are divided until none is left, and a node is filled up to
 /// eight children while it has such a range. So nodes that are not full have leaves alone, and at
 /// least one pair of them that holds five references: with n references, L leaves and B such nodes
-/// there are at most (L + 6 B) / 7 nodes and L <= n - 3 B, B <= n / 5.
+/// there are at most (L + 6 B) / 7 nodes and L <= n - 3 B, B <= n / 5. Leaves of more than one
+/// block are such nodes left out.
 constexpr std::uint64_t most_wide_nodes(std::uint64_t references) {
   return references * 8 / 35 + 1;
 }
@@ -65,14 +67,17 @@ struct WideBuildMemory {
   Array<WidePlace> subtree_places;
   Array<WideBox> part_boxes;  ///< of parts of a pass
   Array<WideBins> part_bins;
-  Array<WideBox> leaf_boxes;  ///< where leaves hold parts of triangles
+  Array<WideSlabBins> part_slabs;  ///< three a part
+  Array<WideBox> leaf_boxes;       ///< where leaves hold parts of triangles
   WideMorton morton;
 
   void release();
 };
 
-/// Ranges of at most this many items are left to one thread.
+/// Ranges of at most this many items are left to one thread; where items are moved more, as it
+/// takes many of them to keep several threads busy with one range.
 inline constexpr std::uint32_t kWideSubtree = 4096;
+inline constexpr std::uint32_t kLargeWideSubtree = 32768;
 /// Elements of a part of a pass over triangles.
 inline constexpr std::size_t kWidePart = 16384;
 /// From this depth on ranges are halved by number, which ends within 28 more.

@@ -1,4 +1,5 @@
 // The top of a tree along Morton codes.
+#include "accel/large_pages.h"
 #include "accel/wide/wide_build_memory.h"
 #include "accel/wide/wide_build_top.h"
 #include "accel/wide/wide_codes.h"
@@ -19,6 +20,7 @@ class MortonRules {
     return key_range(keys_, 0, 0, static_cast<std::uint32_t>(run_.triangles.size()));
   }
 
+  static bool divisible(const Range& range) { return range.divisible(); }
   static bool wider(const Range& a, const Range& b) { return a.level > b.level; }
 
   [[nodiscard]] std::uint32_t leaf(const Range& range) const {
@@ -56,6 +58,8 @@ void build_wide_morton(WideBuildRun& run) {
   WideBuildMemory& memory = run.memory;
   for (auto& keys : memory.keys) keys.reset(count, run.mode, run.allocations);
   memory.order.reset(count, run.mode, run.allocations);
+  for (auto& keys : memory.keys) ask_for_large_pages(keys.bytes());
+  ask_for_large_pages(memory.order.bytes());
   float lower[3], upper[3];
   for (int axis = 0; axis < 3; ++axis) {
     lower[axis] = 2.0F * (run.box.ends[axis] * run.unit);
@@ -70,7 +74,7 @@ void build_wide_morton(WideBuildRun& run) {
   refine_wide_keys(run);
   run.meter.report(0.4);
   MortonRules rules(run);
-  WideTop<MortonRules>(run, rules).build(rules.all());
+  WideTop<MortonRules>(run, rules, kWideSubtree).build(rules.all());
   const WideBuildArrays arrays{.items = {nullptr, nullptr},
                                .keys = {memory.keys[0].data(), memory.keys[1].data()},
                                .nodes = memory.nodes.data(),

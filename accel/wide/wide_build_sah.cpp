@@ -1,4 +1,5 @@
 // The top of a tree by the surface area heuristic: every pass over many items is cut into parts.
+#include "accel/large_pages.h"
 #include "accel/wide/wide_build_memory.h"
 #include "accel/wide/wide_build_top.h"
 #include "accel/wide/wide_spatial.h"
@@ -14,8 +15,8 @@ constexpr std::uint32_t kBins = 16;
 constexpr std::uint32_t kBestBins = 32;
 /// Items are split where their coordinates need no scaling.
 constexpr float kSplitLargest = 0x1p40F, kSplitSmallest = 0x1p-40F;
-/// No more parts than this, however many items there are.
-constexpr std::size_t kMostParts = 64;
+/// Items of a part of a pass over them.
+constexpr std::size_t kPart = 4096;
 
 float half_area(const WideBox& box) {
   const float x = box.ends[0] + box.ends[4], y = box.ends[1] + box.ends[5];
@@ -29,9 +30,14 @@ class SahRules {
 
   SahRules(WideBuildRun& run, std::uint32_t bins, const WideSpatial* spatial)
       : run_(run), bins_(bins), spatial_(spatial) {
-    run.memory.part_bins.reset(kMostParts, run.mode, run.allocations);
+    run.memory.part_bins.reset(WideParts::kMost, run.mode, run.allocations);
+    if (spatial == nullptr) return;
+    run.memory.part_slabs.reset(3 * WideParts::kMost, run.mode, run.allocations);
   }
 
+  static bool divisible(const Range& range) {
+    return range.end - range.begin > TriangleBlock::kSize;
+  }
   /// Whether a is to be divided rather than b.
   static bool wider(const Range& a, const Range& b) { return a.area > b.area; }
 
@@ -55,22 +61,18 @@ class SahRules {
   }
 
  private:
-  struct Parts {
-    std::size_t size, count;
-  };
-  static Parts parts_of(const Range& range) {
+  static WideParts parts_of(const Range& range) {
     const std::size_t items = range.end - range.begin;
-    const std::size_t size = std::max(kWidePart, (items + kMostParts - 1) / kMostParts);
-    return {size, (items + size - 1) / size};
+    const std::size_t size = std::max(kPart, (items + WideParts::kMost - 1) / WideParts::kMost);
+    return {items, size, (items + size - 1) / size};
   }
   /// body(part, begin, end) for the parts of a range.
   template <class Body>
   void for_parts(const Range& range, const Body& body) {
-    const Parts parts = parts_of(range);
-    run_.workers.for_parts(range.end - range.begin, parts.size,
-                           [&](std::size_t begin, std::size_t end) {
-                             body(begin / parts.size, range.begin + begin, range.begin + end);
-                           });
+    const WideParts parts = parts_of(range);
+    run_.workers.for_parts(parts.items, parts.size, [&](std::size_t begin, std::size_t end) {
+      body(begin / parts.size, range.begin + begin, range.begin + end);
+    });
   }
 
   bool by_plane(Range& range, Range& other) {
@@ -91,7 +93,8 @@ class SahRules {
     if (split.axis == 3) return false;
     if (spatial_ != nullptr && wide_halves_overlap(*spatial_, range.area, split.box) &&
         split_wide_space(*spatial_, items, split.cost, run_.memory.items[1 - range.array].data(),
-                         range, other)) {
+                         range, other, parts_of(range), run_.workers,
+                         run_.memory.part_slabs.data())) {
       return true;
     }
     move(range, other, binning, split);
@@ -101,7 +104,7 @@ class SahRules {
   void move(Range& range, Range& other, const WideBinning& binning, const WideSplit& split) {
     const Array<WideBins>& bins = run_.memory.part_bins;
     const std::size_t parts = parts_of(range).count;
-    std::array<std::uint32_t, kMostParts> left_begin;
+    std::array<std::uint32_t, WideParts::kMost> left_begin;
     std::uint32_t left = 0;
     for (std::size_t part = 0; part < parts; ++part) {
       left_begin[part] = left;
@@ -110,7 +113,7 @@ class SahRules {
     const WideItem* const items = run_.memory.items[range.array].data();
     WideItem* const to = run_.memory.items[1 - range.array].data();
     const std::uint32_t middle = wide_right_begin(range, left);
-    std::array<std::array<WideBox, 2>, kMostParts> centers;
+    std::array<std::array<WideBox, 2>, WideParts::kMost> centers;
     for_parts(range, [&](std::size_t part, std::size_t begin, std::size_t end) {
       centers[part] = {kEmptyWideBox, kEmptyWideBox};
       run_.kernels.part(items, begin, end, binning, split, to + range.begin + left_begin[part],
@@ -134,7 +137,7 @@ class SahRules {
   }
 
   void fit(Range& range) {
-    std::array<std::array<WideBox, 2>, kMostParts> boxes;
+    std::array<std::array<WideBox, 2>, WideParts::kMost> boxes;
     const WideItem* const items = run_.memory.items[range.array].data();
     for_parts(range, [&](std::size_t part, std::size_t begin, std::size_t end) {
       run_.kernels.fit_items(items, begin, end, boxes[part][0], boxes[part][1]);
@@ -155,7 +158,10 @@ class SahRules {
 WideRange make_items(WideBuildRun& run, std::uint32_t room) {
   const std::size_t count = run.triangles.size();
   WideBuildMemory& memory = run.memory;
-  for (auto& items : memory.items) items.reset(room, run.mode, run.allocations);
+  for (auto& items : memory.items) {
+    items.reset(room, run.mode, run.allocations);
+    ask_for_large_pages(std::as_bytes(items.span().first(count)));
+  }
   Array<WideBox>& centers = memory.part_boxes;
   for_wide_parts(run, count, 0.15, [&](std::size_t begin, std::size_t end) {
     WideBox& box = centers[begin / kWidePart];
@@ -186,7 +192,9 @@ void build_wide_sah(WideBuildRun& run, bool best) {
   const WideSpatial spatial{run.triangles.data(), all.area};
   const WideSpatial* const splits = run.parts ? &spatial : nullptr;
   SahRules rules(run, best ? kBestBins : kBins, splits);
-  WideTop<SahRules>(run, rules).build(all);
+  const auto subtree =
+      std::clamp(static_cast<std::uint32_t>(count / 32), kWideSubtree, kLargeWideSubtree);
+  WideTop<SahRules>(run, rules, subtree).build(all);
   run.meter.report(0.4);
   const WideBuildArrays arrays{.items = {memory.items[0].data(), memory.items[1].data()},
                                .keys = {nullptr, nullptr},

@@ -19,14 +19,16 @@ class WideTop {
  public:
   using Range = typename Rules::Range;
 
-  WideTop(WideBuildRun& run, Rules& rules) : run_(run), rules_(rules) {}
+  /// Ranges of at most `subtree` items are left to one thread.
+  WideTop(WideBuildRun& run, Rules& rules, std::uint32_t subtree)
+      : run_(run), rules_(rules), subtree_(subtree) {}
 
   void build(const Range& all) {
     WideBuildMemory& memory = run_.memory;
     // The arrays grow only where a build has more nodes up here than any before.
     memory.top.reset(0, run_.mode, run_.allocations);
     memory.subtrees.reset(0, run_.mode, run_.allocations);
-    if (all.end - all.begin <= kWideSubtree) {
+    if (all.end - all.begin <= subtree_) {
       add_subtree(all, 0);
     } else {
       node(all, 0);
@@ -35,8 +37,6 @@ class WideTop {
   }
 
  private:
-  static constexpr std::uint32_t kLeaf = TriangleBlock::kSize;
-
   std::uint32_t node(const Range& range, std::uint32_t depth) {
     const auto index = static_cast<std::uint32_t>(run_.memory.top.size());
     run_.memory.top.grow(index + 1, run_.allocations);
@@ -58,15 +58,15 @@ class WideTop {
 
   std::uint32_t child_of(const Range& range, std::uint32_t depth) {
     const std::uint32_t size = range.end - range.begin;
-    if (size <= kLeaf) return rules_.leaf(range);
-    if (size <= kWideSubtree) return WideTopNode::kSubtree | add_subtree(range, depth);
+    if (size <= WideTopology::kLargestLeaf) return rules_.leaf(range);
+    if (size <= subtree_) return WideTopNode::kSubtree | add_subtree(range, depth);
     return node(range, depth);
   }
 
   static Range* widest_of(Range* parts, std::uint32_t count) {
     Range* widest = nullptr;
     for (Range* part = parts; part < parts + count; ++part) {
-      if (part->end - part->begin <= kLeaf) continue;
+      if (!Rules::divisible(*part)) continue;
       if (widest == nullptr || Rules::wider(*part, *widest)) widest = part;
     }
     return widest;
@@ -87,6 +87,7 @@ class WideTop {
 
   WideBuildRun& run_;
   Rules& rules_;
+  const std::uint32_t subtree_;
   std::uint32_t next_node_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kCodeBits = 32;
 constexpr std::uint32_t kMostAxisBits = 24;
-constexpr std::uint32_t kLeaf = TriangleBlock::kSize;
+constexpr std::uint32_t kLeaf = WideTopology::kLargestLeaf;
 
 /// A run of equal codes.
 class Run {

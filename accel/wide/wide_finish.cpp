@@ -1,4 +1,5 @@
 // Subtrees and what lies above them, put into their places.
+#include "accel/large_pages.h"
 #include "accel/wide/wide_build_memory.h"
 
 #include <algorithm>
@@ -21,11 +22,14 @@ class Finish {
     } else {
       place(0, 0);
     }
-    tree_.leaves = next_.block;
+    tree_.leaves = leaves_;
     tree_.references = next_references_;
     tree_.nodes.reset(next_.node, run_.mode, run_.allocations);
     tree_.blocks.reset(next_.block, run_.mode, run_.allocations);
     tree_.ids.reset(std::size_t{next_.block} * TriangleBlock::kSize, run_.mode, run_.allocations);
+    ask_for_large_pages(tree_.nodes.bytes());
+    ask_for_large_pages(tree_.blocks.bytes());
+    ask_for_large_pages(tree_.ids.bytes());
     for_wide_pieces(run_, memory_.subtrees.size(), 0.99, [&](std::size_t i) { emit_subtree(i); });
     // Lower nodes have higher numbers.
     for (std::size_t i = memory_.top.size(); i-- > 0;) emit_top(i);
@@ -42,7 +46,8 @@ class Finish {
       if (child == WideChild::kNoChild) break;
       memory_.top_places[top].child[k] = next_;
       if (WideChild::is_leaf(child)) {
-        ++next_.block;
+        ++leaves_;
+        next_.block += WideTopology::blocks(WideTopology::count(child));
         next_references_ += WideTopology::count(child);
       } else if ((child & WideTopNode::kSubtree) != 0) {
         place_subtree(child & ~WideTopNode::kSubtree);
@@ -57,7 +62,8 @@ class Finish {
     memory_.subtree_places[index] = next_;
     tree_.depth = std::max(tree_.depth, subtree.deepest);
     next_.node += subtree.nodes;
-    next_.block += subtree.leaves;
+    next_.block += subtree.blocks;
+    leaves_ += subtree.leaves;
     next_references_ += subtree.references;
   }
 
@@ -74,7 +80,7 @@ class Finish {
         if (child == WideChild::kNoChild) {
           no_child(to[i], k);
         } else if (WideChild::is_leaf(child)) {
-          leaf(to[i], k, child, block++);
+          block += leaf(to[i], k, child, block);
         } else {
           to[i].child[k] = place.node + child;
         }
@@ -107,20 +113,24 @@ class Finish {
     }
   }
 
-  void leaf(gpu::WideNode& node, std::uint32_t k, std::uint32_t from, std::uint32_t block) {
-    node.child[k] = WideChild::leaf(block, 1);
+  /// Returns how many blocks it takes.
+  std::uint32_t leaf(gpu::WideNode& node, std::uint32_t k, std::uint32_t from,
+                     std::uint32_t block) {
     const std::uint32_t* const ids = memory_.order.data() + WideTopology::first(from);
     const std::uint32_t last = WideTopology::count(from) - 1;
+    const std::uint32_t blocks = WideTopology::blocks(last + 1);
+    node.child[k] = WideChild::leaf(block, blocks);
     std::uint32_t* const to = tree_.ids.data() + std::size_t{block} * TriangleBlock::kSize;
-    for (std::uint32_t lane = 0; lane < TriangleBlock::kSize; ++lane) {
+    for (std::uint32_t lane = 0; lane < blocks * TriangleBlock::kSize; ++lane) {
       to[lane] = ids[std::min(lane, last)];
     }
-    if (!run_.parts) return;
+    if (!run_.parts) return blocks;
     const WideBox& box = memory_.leaf_boxes[WideTopology::first(from)];
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       node.bounds[16 * axis + k] = box.ends[axis];
       node.bounds[16 * axis + 8 + k] = box.ends[axis + 4];
     }
+    return blocks;
   }
 
   void fit(std::size_t begin, std::size_t end) {
@@ -140,6 +150,7 @@ class Finish {
   WideBuildMemory& memory_;
   WidePlace next_{0, 0};
   std::uint32_t next_references_ = 0;
+  std::uint32_t leaves_ = 0;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
 namespace encore::accel::test {
@@ -83,6 +84,38 @@ TEST(WideBuild, ThreadsAndInstructionSetsMakeNoDifference) {
         other.builder.set_isa(isa);
         other.build(scene.triangles, preset);
         EXPECT_TRUE(same(one.tree, other.tree)) << to_string(isa);
+      }
+    }
+  }
+}
+
+/// How many leaves have so many blocks.
+std::array<std::size_t, WideChild::kMostLeafBlocks + 1> leaves_by_blocks(const WideTree& tree) {
+  std::array<std::size_t, WideChild::kMostLeafBlocks + 1> leaves{};
+  for (const gpu::WideNode& node : tree.nodes.span()) {
+    for (const std::uint32_t child : node.child) {
+      if (child == WideChild::kNoChild || !WideChild::is_leaf(child)) continue;
+      ++leaves[WideChild::blocks(child)];
+    }
+  }
+  return leaves;
+}
+
+TEST(WideBuild, BlocksAreWellFilledAndNodesHold) {
+  for (const BuildPreset preset : kPresets) {
+    for (const Case& scene : large_cases()) {
+      SCOPED_TRACE(name_of(preset, scene.name));
+      const BuiltTree built(scene.triangles, preset);
+      const auto leaves = leaves_by_blocks(built.tree);
+      EXPECT_EQ(leaves[1] + leaves[2], built.tree.leaves);
+      // On a line every box has no area, and so all planes cost the same.
+      if (preset == BuildPreset::fast || scene.name != "a line") {
+        EXPECT_GE(double(built.tree.references), 3.2 * double(built.tree.blocks.size()));
+      }
+      // Each of at least nine references but the root.
+      EXPECT_LE(built.tree.nodes.size(), built.tree.references / 7 + 1);
+      if (scene.name == "ball") {
+        EXPECT_GT(leaves[2], leaves[1] / 100);
       }
     }
   }
