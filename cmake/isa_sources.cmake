@@ -6,6 +6,10 @@
 # linked from any of them (tests/architecture looks at the object files).
 function(encore_isa_sources target)
   set(portable_options "")
+  if(ENCORE_SANITIZE)
+    # Sanitizers' checks in its unrolled loops take the compiler ten minutes a file at -O2.
+    set(portable_options -O1 -fno-var-tracking)
+  endif()
   set(isas portable)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND isas sse42 avx2 avx512)
