@@ -33,13 +33,15 @@ namespace encore::accel {
 /// range. A certain sign needs L > 2^-20 (L + Z), so decide_hit(), which is off by some 2^-48
 /// (L + Z)^2, sees the same sign and a slope far above ENCORE_SLOPE_ROUNDING.
 ///
-/// Error of the distance t = N . A / N . D, with N = E1 x E2 and e the largest component of the
-/// edges: N is off by 8 r e^2 a component, which moves t by at most 24 r e^3 / |N . D| since the
-/// vector from the hit to A lies within the triangle; the dot products are off by 4 r times the sum
-/// of their terms' magnitudes each, divisions and the ray's scale add 3 r. A triangle for which
-/// those sums do not stay below 2^-16 |t|, as it is seen too nearly edge-on or almost contains the
-/// origin, is left to decide_hit(), distance and all. So is one at a distance that is t_min or
-/// t_max to within twice that.
+/// Error of the distance t = N . A / N . D, with N = E1 x E2: its x is off by 4 r (|E1y E2z| +
+/// |E1z E2y|), y and z alike, which moves t by at most the sum over the axes of that times
+/// max(|E1x|, |E2x|), over |N . D|, since the vector from the hit to A lies within the triangle:
+/// not at all for a wall across an axis, however large. 16.5 times the largest of the three is
+/// more; a 2^-120th of the largest component of the edges is for what falls below the normal range.
+/// The dot products are off by 4 r times the sum of their terms' magnitudes each, divisions and the
+/// ray's scale add 3 r. A triangle for which those sums do not stay below 2^-16 |t|, as it is seen
+/// too nearly edge-on or almost contains the origin, is left to decide_hit(), distance and all. So
+/// is one at a distance that is t_min or t_max to within twice that.
 class WatertightTester {
  public:
   /// Relative bound of a distance's error, and how close two distances must be for their order to
@@ -122,6 +124,18 @@ class WatertightTester {
     return std::max(std::fabs(a), std::max(std::fabs(b), std::fabs(c)));
   }
 
+  /// How far rounding of the normal may move the heights of points of the triangle, in units of the
+  /// roundoff.
+  static float normal_error(const glm::vec3& e1, const glm::vec3& e2, float edge) {
+    const auto magnitude = [](float p, float q) { return std::fabs(p) + std::fabs(q); };
+    const auto wider = [](float p, float q) { return std::max(std::fabs(p), std::fabs(q)); };
+    const float x = magnitude(e1.y * e2.z, e1.z * e2.y) * wider(e1.x, e2.x);
+    const float y = magnitude(e1.z * e2.x, e1.x * e2.z) * wider(e1.y, e2.y);
+    const float z = magnitude(e1.x * e2.y, e1.y * e2.x) * wider(e1.z, e2.z);
+    return ENCORE_WATERTIGHT_NORMAL * std::max(x, std::max(y, z)) +
+           ENCORE_WATERTIGHT_NORMAL_UNDERFLOW * edge;
+  }
+
   [[nodiscard]] Verdict judge(const scene::Triangle& t, Weights& w) const {
     const glm::vec3 a = t.v0 - ray_.origin;
     const glm::vec3 b = t.v1 - ray_.origin;
@@ -158,7 +172,7 @@ class WatertightTester {
     // In units of the roundoff: 256 of them are the bound.
     const bool sure = edge > ENCORE_WATERTIGHT_EDGE_SMALL && edge < ENCORE_WATERTIGHT_EDGE_LARGE &&
                       std::fabs(above) > kSmall && std::fabs(down) > kSmall &&
-                      32.0F * edge * edge * edge + 5.0F * heights < 128.0F * std::fabs(above) &&
+                      normal_error(e1, e2, edge) + 5.0F * heights < 128.0F * std::fabs(above) &&
                       5.0F * slopes < 120.0F * std::fabs(down);
     if (!sure) return Verdict::doubt;
     t = above / down * scale_;

@@ -71,11 +71,15 @@ int judge_distance(Ray ray, PreparedRay r, Triangle triangle, out float t) {
   precise float above = height.x + height.y + height.z;
   precise float down = slope_x + slope_y + n[r.kz];
   float edge = max(largest_component(e1), largest_component(e2));
+  precise vec3 magnitude = abs(e1.yzx * e2.zxy) + abs(e1.zxy * e2.yzx);
+  precise vec3 moved = magnitude * max(abs(e1), abs(e2));
+  precise float error = ENCORE_WATERTIGHT_NORMAL * largest_component(moved) +
+                        ENCORE_WATERTIGHT_NORMAL_UNDERFLOW * edge;
   float heights = abs(height.x) + abs(height.y) + abs(height.z);
   float slopes = abs(slope_x) + abs(slope_y) + abs(n[r.kz]);
   bool sure = edge > ENCORE_WATERTIGHT_EDGE_SMALL && edge < ENCORE_WATERTIGHT_EDGE_LARGE &&
               abs(above) > ENCORE_WATERTIGHT_SMALL && abs(down) > ENCORE_WATERTIGHT_SMALL &&
-              32.0 * edge * edge * edge + 5.0 * heights < 128.0 * abs(above) &&
+              error + 5.0 * heights < 128.0 * abs(above) &&
               5.0 * slopes < 120.0 * abs(down);
   t = 0.0;
   if (!sure) return kDoubt;

@@ -148,18 +148,20 @@ class DoubtingBlocks {
     const Points<4> a = triangle.v0 - Points<4>::all(origin_);
     const Points<4> e1 = triangle.v1 - triangle.v0, e2 = triangle.v2 - triangle.v0;
     const Points<4> n = cross(e1, e2);
+    const Floats<4> edge = max(largest(e1), largest(e2));
     const Floats<4> x = n.x * a.x, y = n.y * a.y, z = n.z * a.z;
     const int kz = turned_.kz;
-    const WatertightHeight<4> height = watertight_height(kz == 2   ? x
-                                                         : kz == 0 ? z
-                                                                   : y,
-                                                         kz == 2   ? y
-                                                         : kz == 0 ? x
-                                                                   : z,
-                                                         kz == 2   ? z
-                                                         : kz == 0 ? y
-                                                                   : x,
-                                                         max(largest(e1), largest(e2)));
+    const WatertightHeight<4> height =
+        watertight_height(kz == 2   ? x
+                          : kz == 0 ? z
+                                    : y,
+                          kz == 2   ? y
+                          : kz == 0 ? x
+                                    : z,
+                          kz == 2   ? z
+                          : kz == 0 ? y
+                                    : x,
+                          edge, watertight_normal_error(e1, e2, edge));
     const WatertightDistances<4> distances =
         watertight_distances<4>(height, n,
                                 {all(turned_.shear_x), all(turned_.shear_y), all(turned_.scale),

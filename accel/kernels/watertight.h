@@ -72,6 +72,19 @@ template <int N>
   return watertight_weights(a, b, c, largest(Points<N>{a.z, b.z, c.z}), shear_x, shear_y);
 }
 
+/// How far rounding of the normal may move the heights of points of the triangle, in units of the
+/// roundoff: WatertightTester::normal_error(). `edge`: the largest component of the edges.
+template <int N>
+[[gnu::always_inline]] inline Floats<N> watertight_normal_error(const Points<N>& e1,
+                                                                const Points<N>& e2,
+                                                                const Floats<N>& edge) {
+  const Floats<N> x = (abs(e1.y * e2.z) + abs(e1.z * e2.y)) * max(abs(e1.x), abs(e2.x));
+  const Floats<N> y = (abs(e1.z * e2.x) + abs(e1.x * e2.z)) * max(abs(e1.y), abs(e2.y));
+  const Floats<N> z = (abs(e1.x * e2.y) + abs(e1.y * e2.x)) * max(abs(e1.z), abs(e2.z));
+  return Floats<N>::all(ENCORE_WATERTIGHT_NORMAL) * max(x, max(y, z)) +
+         Floats<N>::all(ENCORE_WATERTIGHT_NORMAL_UNDERFLOW) * edge;
+}
+
 /// What the distances of N pairs have of the triangle and the origin alone: the dividend, and where
 /// it is as precise as the tester wants it, and where at least its sign is certain.
 template <int N>
@@ -82,12 +95,13 @@ struct WatertightHeight {
 };
 
 /// `x`, `y`, `z`: the terms of normal times first vertex as seen from the origin, in the order of
-/// the axes as they were; `edge`: the largest component of the edges.
+/// the axes as they were; `edge`: the largest component of the edges; `normal_error`: see above.
 template <int N>
 [[gnu::always_inline]] inline WatertightHeight<N> watertight_height(const Floats<N>& x,
                                                                     const Floats<N>& y,
                                                                     const Floats<N>& z,
-                                                                    const Floats<N>& edge) {
+                                                                    const Floats<N>& edge,
+                                                                    const Floats<N>& normal_error) {
   const auto all = [](float number) __attribute__((always_inline)) {
     return Floats<N>::all(number);
   };
@@ -95,7 +109,7 @@ template <int N>
   r.above = x + y + z;
   const Floats<N> size = abs(r.above);
   const Floats<N> heights = abs(x) + abs(y) + abs(z);
-  const Floats<N> error = all(32.0F) * edge * edge * edge + all(5.0F) * heights;
+  const Floats<N> error = normal_error + all(5.0F) * heights;
   const Mask<N> in_range = (edge > all(ENCORE_WATERTIGHT_EDGE_SMALL)) &
                            (edge < all(ENCORE_WATERTIGHT_EDGE_LARGE)) &
                            (size > all(ENCORE_WATERTIGHT_SMALL));

@@ -65,6 +65,7 @@ template <bool kCommon>
   const Points<4> n = cross(e1, e2);
   block.store(PreparedBlock::kNormal, n);
   const Floats<4> edge = max(largest(e1), largest(e2));
+  const Floats<4> normal_error = watertight_normal_error(e1, e2, edge);
   if constexpr (kCommon) {
     for (int axis = 0; axis < 3; ++axis) {
       const Floats<4> o = Floats<4>::all(origin[axis * kPacketRays]);
@@ -76,11 +77,13 @@ template <bool kCommon>
       largest(Points<4>{seen[0], seen[1], seen[2]}).store(block.row[PreparedBlock::kAlong + axis]);
     }
     const Points<4> a = row(PreparedBlock::kSeen);
-    const WatertightHeight<4> height = watertight_height(n.x * a.x, n.y * a.y, n.z * a.z, edge);
+    const WatertightHeight<4> height =
+        watertight_height(n.x * a.x, n.y * a.y, n.z * a.z, edge, normal_error);
     height.above.store(block.row[PreparedBlock::kAbove]);
     block.precise_heights = height.precise.bits();
   } else {
     edge.store(block.row[PreparedBlock::kLongest]);
+    normal_error.store(block.row[PreparedBlock::kNormalError]);
   }
 }
 
@@ -197,7 +200,8 @@ struct DoubtingPackets {
       const int x = kz == 2 ? 0 : kz == 0 ? 2 : 1;
       height = watertight_height(normal(0) * *terms[x], normal(1) * *terms[x == 2 ? 0 : x + 1],
                                  normal(2) * *terms[x == 0 ? 2 : x - 1],
-                                 F::all(block.row[PreparedBlock::kLongest][lane]));
+                                 F::all(block.row[PreparedBlock::kLongest][lane]),
+                                 F::all(block.row[PreparedBlock::kNormalError][lane]));
     }
     const WatertightDistances<kLanes> distances =
         watertight_distances(height, turned(normal), stretch);

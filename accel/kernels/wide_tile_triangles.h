@@ -20,10 +20,11 @@ struct PreparedBlock {
     kDistance = 15,
     kBehind = 16,
     kError = 17,
-    // What settle_block() fills in; the last three where the rays have their origin in common, else
-    // the first after the normal.
+    // What settle_block() fills in; after the normal the last three where the rays have their
+    // origin in common, else the first two.
     kNormal = 18,
     kLongest = 21,
+    kNormalError = 22,
     kAbove = 21,
     kSeen = 22,
     kAlong = 31,
