@@ -134,6 +134,20 @@ void growth(Bench& bench, const BenchScene& small, const BenchScene& large, Embr
       static_cast<double>(large.triangles.size()) / static_cast<double>(small.triangles.size()));
 }
 
+/// Races what was doubled, one thread against several, and adds the rows.
+void add_speedups(Bench& bench, const BenchScene& scene, int threads, const char* operation,
+                  const DoubledRace& doubled) {
+  const RaceTimes times = race(doubled.runners, bench.race_settings(threads));
+  add_rows(bench,
+           {.part = "scaling",
+            .scene = scene.name,
+            .triangles = scene.triangles.size(),
+            .threads = threads,
+            .operation = operation,
+            .unit = "x 1's"},
+           doubled, times, 1.0);
+}
+
 /// One thread's time over that of several, for builds.
 void build_speedup(Bench& bench, const BenchScene& scene, int threads, EmbreeDevice* embree) {
   bench.progress(fmt::format("building {} with 1 and {} threads", scene.name, threads));
@@ -160,15 +174,7 @@ void build_speedup(Bench& bench, const BenchScene& scene, int threads, EmbreeDev
     doubled.add(
         contestant.name, contestant.peer, true, [=] { build(1); }, [=] { build(threads); });
   }
-  const RaceTimes times = race(doubled.runners, bench.race_settings(threads));
-  add_rows(bench,
-           {.part = "scaling",
-            .scene = scene.name,
-            .triangles = scene.triangles.size(),
-            .threads = threads,
-            .operation = "build speed",
-            .unit = "x 1's"},
-           doubled, times, 1.0);
+  add_speedups(bench, scene, threads, "build speed", doubled);
 }
 
 /// The same for tracing primary rays.
@@ -205,15 +211,7 @@ void trace_speedup(Bench& bench, const BenchScene& scene, int threads, EmbreeDev
     };
     add(contestant.name, contestant.peer, true, make(1), make(threads));
   }
-  const RaceTimes times = race(doubled.runners, bench.race_settings(threads));
-  add_rows(bench,
-           {.part = "scaling",
-            .scene = scene.name,
-            .triangles = scene.triangles.size(),
-            .threads = threads,
-            .operation = "trace speed",
-            .unit = "x 1's"},
-           doubled, times, 1.0);
+  add_speedups(bench, scene, threads, "trace speed", doubled);
 }
 
 }  // namespace
