@@ -5,7 +5,7 @@
 #include "accel/test_rays.h"
 #include "accel/verify.h"
 #include "check_tree.h"
-#include "test_scenes.h"
+#include "moved_triangles.h"
 
 #include <gtest/gtest.h>
 
@@ -17,14 +17,6 @@ namespace {
 Bvh make(UpdateCase update_case = UpdateCase::real, std::uint64_t seed = 1) {
   return Bvh(StructureKind::bvh_median, BvhSettings{.update_case = update_case, .seed = seed},
              MemoryMode::pool);
-}
-
-Triangles moved(Triangles triangles, float distance, std::uint32_t seed) {
-  Random random(seed);
-  for (Triangle& t : triangles) {
-    for (vec3* vertex : {&t.v0, &t.v1, &t.v2}) *vertex += random.point(distance);
-  }
-  return triangles;
 }
 
 void expect_same_hits_as_fresh(const Bvh& refitted, const Triangles& triangles) {

@@ -1,7 +1,7 @@
 // A refit on the device leaves the very nodes that the CPU's does, in every update case.
 #include "accel/bvh/bvh.h"
 #include "accel/test_rays.h"
-#include "tests/bvh/test_scenes.h"
+#include "tests/bvh/moved_triangles.h"
 #include "tests/gpu/gpu_scenes.h"
 
 #include <span>
@@ -12,19 +12,12 @@ namespace {
 using accel::Bvh;
 using accel::StructureKind;
 using accel::UpdateCase;
+using accel::test::moved;
 using accel::test::Triangles;
 
 accel::StructureSpec bvh_spec(UpdateCase update_case = UpdateCase::real, std::uint64_t seed = 1) {
   return {.kind = StructureKind::bvh_median,
           .settings = accel::BvhSettings{.update_case = update_case, .seed = seed}};
-}
-
-Triangles moved(Triangles triangles, float distance, std::uint32_t seed) {
-  accel::test::Random random(seed);
-  for (scene::Triangle& t : triangles) {
-    for (glm::vec3* vertex : {&t.v0, &t.v1, &t.v2}) *vertex += random.point(distance);
-  }
-  return triangles;
 }
 
 const Bvh& bvh_of(const GpuTestScene& setup) {
@@ -95,12 +88,7 @@ TEST_F(GpuRefitTest, DenormalCoordinatesAreNotFlushed) {
 
 TEST_F(GpuRefitTest, WhenOnlyOneTriangleMovesTheRestStays) {
   const Triangles start = accel::test::soup(700, 1.0F, 40);
-  std::vector<Triangles> frames;
-  for (const std::size_t which : {0U, 350U, 699U}) {
-    frames.push_back(start);
-    frames.back()[which].v1 *= 1.5F;
-  }
-  expect_cpu_nodes(UpdateCase::real, start, frames);
+  expect_cpu_nodes(UpdateCase::real, start, accel::test::one_moved_each(start));
 }
 
 TEST_F(GpuRefitTest, FollowedByTracingGivesTheHitsOfARefitOnTheCpu) {

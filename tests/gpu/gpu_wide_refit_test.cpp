@@ -1,7 +1,7 @@
 // A refit of bvh-sah on the device leaves the boxes that the CPU's does.
 #include "accel/test_rays.h"
 #include "accel/wide/wide_bvh.h"
-#include "tests/bvh/test_scenes.h"
+#include "tests/bvh/moved_triangles.h"
 #include "tests/gpu/gpu_scenes.h"
 
 #include <algorithm>
@@ -13,20 +13,13 @@ namespace {
 using accel::BuildPreset;
 using accel::StructureKind;
 using accel::WideBvh;
+using accel::test::moved;
 using accel::test::Triangles;
 
 constexpr BuildPreset kPresets[] = {BuildPreset::fast, BuildPreset::balanced, BuildPreset::best};
 
 accel::StructureSpec wide_spec(BuildPreset preset = BuildPreset::balanced) {
   return {.kind = StructureKind::bvh_sah, .settings = accel::BvhSettings{.preset = preset}};
-}
-
-Triangles moved(Triangles triangles, float distance, std::uint32_t seed) {
-  accel::test::Random random(seed);
-  for (scene::Triangle& t : triangles) {
-    for (glm::vec3* vertex : {&t.v0, &t.v1, &t.v2}) *vertex += random.point(distance);
-  }
-  return triangles;
 }
 
 const WideBvh& wide_of(const GpuTestScene& setup) {
@@ -98,12 +91,7 @@ TEST_F(GpuWideRefitTest, DenormalCoordinatesAreNotFlushed) {
 
 TEST_F(GpuWideRefitTest, WhenOnlyOneTriangleMovesItsBoxesFollow) {
   const Triangles start = accel::test::soup(700, 1.0F, 40);
-  std::vector<Triangles> frames;
-  for (const std::size_t which : {0U, 350U, 699U}) {
-    frames.push_back(start);
-    frames.back()[which].v1 *= 1.5F;
-  }
-  expect_cpu_nodes(BuildPreset::balanced, start, frames);
+  expect_cpu_nodes(BuildPreset::balanced, start, accel::test::one_moved_each(start));
 }
 
 TEST_F(GpuWideRefitTest, FollowedByTracingGivesTheHitsOfARefitOnTheCpu) {
