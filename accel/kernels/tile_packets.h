@@ -70,7 +70,7 @@ class TilePacket {
       if (bits == 0) continue;
       lanes_ += static_cast<unsigned>(__builtin_popcount(bits));
       const GroupRays rays{packet_, group * kLanes};
-      if (Tester::template test<kAnyHit, kCommonOf>(scene_, block, &id, rays, active[group])) {
+      if (Tester::template test<kAnyHit, kCommonOf>(scene_, block, &id, rays, active[group], 1U)) {
         changed |= 1U << group;
       }
     }
@@ -193,6 +193,18 @@ void trace_tile(const View& view, const TileJob& job) {
       }
       const std::size_t first = y * job.width + x;
       const scene::Ray* const rays = job.rays + first;
+      const std::size_t next = job.width - x <= columns ? (y + rows) * job.width : first + columns;
+      const auto prefetch = [&](auto to_write, const auto* from) {
+        prefetch_rows<decltype(to_write)::value>(from, next, job.width,
+                                                 static_cast<std::uint32_t>(columns),
+                                                 static_cast<std::uint32_t>(rows));
+      };
+      prefetch(std::false_type{}, job.rays);
+      if (kAnyHit) {
+        prefetch(std::true_type{}, job.blocked);
+      } else {
+        prefetch(std::true_type{}, job.hits);
+      }
       load_rays(rays, packet);
       if (trace_tile_packet<Trace, typename Plan::Tester, kAnyHit>(view, job.triangles, rays,
                                                                    packet)) {

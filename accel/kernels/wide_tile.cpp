@@ -22,28 +22,14 @@ bool trace_packet(const TraceScene& scene, RayPacket& packet) {
              : PacketTrace<Tester, kAnyHit, false>(scene, packet, frustums).run();
 }
 
-/// Has rays of the packet that comes next, `rows` times `columns` of them, on their way from memory
-/// while the one before is traced: eight rows apart are more than the processor foresees. Behind a
-/// rectangle often comes another one; nothing is read there.
-[[gnu::always_inline]] inline void prefetch_rays(const scene::Ray* rays, std::size_t first,
-                                                 std::size_t width, std::uint32_t columns,
-                                                 std::uint32_t rows) {
-  const auto start = reinterpret_cast<std::uintptr_t>(rays) + first * sizeof(scene::Ray);
-  for (std::uint32_t row = 0; row < rows; ++row) {
-    const std::uintptr_t at = start + row * width * sizeof(scene::Ray);
-    for (std::uint32_t i = 0; i < columns * sizeof(scene::Ray); i += 64) {
-      __builtin_prefetch(reinterpret_cast<const void*>(at + i));
-    }
-  }
-}
-
 /// Calls together(first ray) for all packets of a rectangle. For those of which it returns false,
 /// the rays go alone(first, count): a whole band of packets at once where none goes together, as
 /// single rays are quick only in long batches.
-template <class Together, class Alone>
-[[gnu::always_inline]] inline void for_packets(const scene::Ray* rays, std::size_t width,
-                                               std::size_t height, RayPacket& packet,
-                                               const Together& together, const Alone& alone) {
+template <class Answer, class Together, class Alone>
+[[gnu::always_inline]] inline void for_packets(const scene::Ray* rays, const Answer* answers,
+                                               std::size_t width, std::size_t height,
+                                               RayPacket& packet, const Together& together,
+                                               const Alone& alone) {
   std::uint32_t columns = 8;
   while (columns > 1 && columns / 2 >= width) columns /= 2;
   while (columns < kPacketRays && kPacketRays / columns / 2 >= height) columns *= 2;
@@ -67,8 +53,10 @@ template <class Together, class Alone>
         set_columns = has_columns;
       }
       const bool last = width - x <= columns;
-      prefetch_rays(rays, last ? (y + rows) * width : y * width + x + columns, width, columns,
-                    rows);
+      // Behind a rectangle often comes another one; nothing is read there.
+      const std::size_t next = last ? (y + rows) * width : y * width + x + columns;
+      prefetch_rows<false>(rays, next, width, columns, rows);
+      prefetch_rows<true>(answers, next, width, columns, rows);
       if (together(y * width + x)) {
         for (std::size_t k = 0; k < left; ++k) alone_in(y, k * columns, has_rows);
         left = 0;
@@ -111,9 +99,10 @@ void intersect(const WideView& tree, const scene::Triangle* triangles, const sce
     store_hits(packet, hits + first);
     return true;
   };
-  for_packets(rays, width, height, packet, together, [&](std::size_t first, std::size_t count) {
-    single(tree, triangles, rays + first, count, hits + first);
-  });
+  for_packets(rays, hits, width, height, packet, together,
+              [&](std::size_t first, std::size_t count) {
+                single(tree, triangles, rays + first, count, hits + first);
+              });
 }
 
 template <class Tester, int kMode>
@@ -129,9 +118,10 @@ void occluded(const WideView& tree, const scene::Triangle* triangles, const scen
     store_blocked(packet, blocked + first);
     return true;
   };
-  for_packets(rays, width, height, packet, together, [&](std::size_t first, std::size_t count) {
-    single(tree, triangles, rays + first, count, blocked + first);
-  });
+  for_packets(rays, blocked, width, height, packet, together,
+              [&](std::size_t first, std::size_t count) {
+                single(tree, triangles, rays + first, count, blocked + first);
+              });
 }
 
 }  // namespace

@@ -96,51 +96,101 @@ template <bool kCommon>
 template <bool kPrecise>
 struct DoubtingPackets {
   static constexpr bool kFilter = true;
+  static constexpr bool few_pay(bool any_hit) { return any_hit; }
   static constexpr float kReach = 1.0F + 2 * ENCORE_WATERTIGHT_DISTANCE;
 
   template <bool kAnyHit, bool kCommon>
   [[gnu::always_inline]] static bool test(const TraceScene& scene, PreparedBlock& block,
                                           const std::uint32_t* ids, const GroupRays& rays,
-                                          Mask<kLanes> active) {
-    using F = Floats<kLanes>;
-    const F sign_bit = F::all(-0.0F);
+                                          Mask<kLanes> active, unsigned triangles) {
     const Points<kLanes> origin = kCommon ? Points<kLanes>{} : rays.origin();
     const Points<kLanes> direction = rays.filter_direction();
     bool changed = false;
-    for (int lane = 0; lane < block.count; ++lane) {
-      Points<kLanes> s;
-      const Weights w = weigh<kCommon>(block, lane, origin, direction, s);
-      const F error = F::all(block.row[PreparedBlock::kError][lane]);
-      const F minus_error = error ^ sign_bit;
-      Mask<kLanes> outside =
-          (w.u < minus_error) | (w.v < minus_error) | (w.u + w.v > w.size + error);
-      if constexpr (!kCommon) {
-        // Most rays that leave a surface have its triangles right behind them.
-        outside =
-            outside | ((w.distance ^ w.sign) < F::all(block.row[PreparedBlock::kBehind][lane]));
-      }
-      const Mask<kLanes> left = without(active, outside & (w.size > error));
+    for (; triangles != 0; triangles &= triangles - 1) {
+      const int lane = __builtin_ctz(triangles);
+      const Filtered<kLanes> filtered =
+          filter<kCommon>(OneTriangle{block, lane}, origin, direction);
+      const Mask<kLanes> left = without(active, filtered.missed);
       if (left.bits() == 0) continue;
-      settle_block<kCommon>(block, rays.packet.origin[0]);
-      // The bound is as good for certain hits as for certain misses.
-      const Mask<kLanes> inside = (w.u > error) & (w.v > error) & (w.u + w.v < w.size - error);
-      for (int kz = 0; kz < 3; ++kz) {
-        const unsigned along = rays.packet.settling.along[kz][rays.first / kLanes];
-        if (along == 0) continue;
-        const unsigned hit = judge<kAnyHit, kCommon>(
-            scene, block, lane, ids[lane], rays, left & Mask<kLanes>::of_bits(along), inside, kz);
-        if (hit == 0) continue;
-        changed = true;
-        if constexpr (kAnyHit) {
-          active = without(active, Mask<kLanes>::of_bits(hit));
-          if (active.bits() == 0) return true;
-        }
+      const unsigned hit =
+          judge_all<kAnyHit, kCommon>(scene, block, lane, ids[lane], rays, left, filtered.inside);
+      if (hit == 0) continue;
+      changed = true;
+      if constexpr (kAnyHit) {
+        active = without(active, Mask<kLanes>::of_bits(hit));
+        if (active.bits() == 0) return true;
       }
+    }
+    return changed;
+  }
+  /// The same for a few rays.
+  template <bool kAnyHit, bool kCommon>
+  [[gnu::always_inline]] static bool test_few(const TraceScene& scene, PreparedBlock& block,
+                                              const std::uint32_t* ids, const GroupRays& rays,
+                                              const FewRays& few) {
+    const Points<kLanes> origin = kCommon ? Points<kLanes>{} : rays.origin(few);
+    const Filtered<kLanes> filtered =
+        filter<kCommon>(FourTriangles{block}, origin, rays.filter_direction(few));
+    const unsigned left = few.lanes() & ~filtered.missed.bits();
+    if (left == 0) return false;
+    const unsigned inside = filtered.inside.bits() & few.lanes();
+    unsigned blocked = 0;
+    bool changed = false;
+    for (int k = 0; k < block.count; ++k) {
+      const unsigned mine = few.rays_of(left, k) & ~blocked;
+      if (mine == 0) continue;
+      const unsigned hit =
+          judge_all<kAnyHit, kCommon>(scene, block, k, ids[k], rays, Mask<kLanes>::of_bits(mine),
+                                      Mask<kLanes>::of_bits(few.rays_of(inside, k)));
+      changed |= hit != 0;
+      if constexpr (kAnyHit) blocked |= hit;
     }
     return changed;
   }
 
  private:
+  /// What TriangleFilter's test is certain of.
+  template <int N>
+  struct Filtered {
+    Mask<N> missed, inside;
+  };
+
+  template <bool kCommon, class Triangles>
+  [[gnu::always_inline]] static Filtered<kLanes> filter(const Triangles& triangles,
+                                                        const Points<kLanes>& origin,
+                                                        const Points<kLanes>& direction) {
+    using F = Floats<kLanes>;
+    const Weights w = weigh<kCommon>(triangles, origin, direction);
+    const F error = triangles.number(PreparedBlock::kError);
+    const F minus_error = error ^ F::all(-0.0F);
+    Mask<kLanes> outside = (w.u < minus_error) | (w.v < minus_error) | (w.u + w.v > w.size + error);
+    if constexpr (!kCommon) {
+      // Most rays that leave a surface have its triangles right behind them.
+      outside = outside | ((w.distance ^ w.sign) < triangles.number(PreparedBlock::kBehind));
+    }
+    // The bound is as good for certain hits as for certain misses.
+    return {outside & (w.size > error),
+            (w.u > error) & (w.v > error) & (w.u + w.v < w.size - error)};
+  }
+
+  /// Holds a triangle against rays that may hit it, some `inside` for certain; bits of those that
+  /// do.
+  template <bool kAnyHit, bool kCommon>
+  [[gnu::always_inline]] static unsigned judge_all(const TraceScene& scene, PreparedBlock& block,
+                                                   int lane, std::uint32_t id,
+                                                   const GroupRays& rays, Mask<kLanes> left,
+                                                   Mask<kLanes> inside) {
+    settle_block<kCommon>(block, rays.packet.origin[0]);
+    unsigned hit = 0;
+    for (int kz = 0; kz < 3; ++kz) {
+      const unsigned along = rays.packet.settling.along[kz][rays.first / kLanes];
+      const Mask<kLanes> mine = left & Mask<kLanes>::of_bits(along);
+      if (mine.bits() == 0) continue;
+      hit |= judge<kAnyHit, kCommon>(scene, block, lane, id, rays, mine, inside, kz);
+    }
+    return hit;
+  }
+
   /// Holds a triangle against rays whose axis is kz; bits of those that hit it.
   template <bool kAnyHit, bool kCommon>
   [[gnu::always_inline]] static unsigned judge(const TraceScene& scene, const PreparedBlock& block,

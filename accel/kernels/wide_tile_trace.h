@@ -1,5 +1,6 @@
 #pragma once
 
+#include "accel/kernels/wide_tile_cull.h"
 #include "accel/kernels/wide_tile_frustum.h"
 #include "accel/kernels/wide_tile_triangles.h"
 
@@ -19,8 +20,9 @@ class PacketTrace {
     for (int group = 0; group < kGroups; ++group) {
       endless = endless && least_of(F::load(packet_.t + group * kLanes)) == __builtin_inff();
     }
+    frustums_.groups.limit = Floats<kGroups>::all(__builtin_inff());
     for (int group = 0; group < kGroups; ++group) {
-      group_limit_[group] = __builtin_inff();
+      farthest_[group] = __builtin_inff();
       if (!endless) limit_group(group);
     }
     limit_whole();
@@ -43,6 +45,8 @@ class PacketTrace {
   /// A leaf that fewer of the packet's rays meet than this, on average, costs each of them more
   /// than it would alone; to be seen from so many leaves.
   static constexpr int kLeastLanes = 2, kLeastLeaves = 16;
+  /// From so many rays on triangles are first thrown out by whole groups.
+  static constexpr int kCulledLanes = 24;
 
   /// A child still to be visited, where the packet enters its box, and where that box is.
   struct Waiting {
@@ -126,42 +130,74 @@ class PacketTrace {
       }
     }
     has_inverses_ = true;
+    if constexpr (kCommon) cull_.set(frustums_);
   }
 
   [[gnu::always_inline]] void visit_leaf(const Waiting& leaf) {
     if (!has_inverses_) set_inverses();
     ++leaves_;
+    const ActiveRays active = find_active(leaf);
+    if (active.count == 0) return;
+    lanes_ += active.lanes;
+    const std::uint32_t first = WideChild::first_block(leaf.child);
+    const std::uint32_t end = first + WideChild::blocks(leaf.child);
+    unsigned changed = 0;
+    for (std::uint32_t block = first; block < end; ++block) changed |= test_block(block, active);
+    bool nearer = false;
+    for (; changed != 0; changed &= changed - 1) {
+      nearer |= limit_group(active.group[__builtin_ctz(changed)]);
+    }
+    if (nearer) limit_whole();
+  }
+
+  /// Groups with rays that meet a leaf's box.
+  struct ActiveRays {
+    int count = 0, lanes = 0;  ///< groups, and rays in all
+    int group[kGroups];
+    Mask<kLanes> rays[kGroups];
+  };
+
+  [[gnu::always_inline]] ActiveRays find_active(const Waiting& leaf) const {
+    ActiveRays active;
     unsigned groups = kCommon ? groups_at(leaf.box) : leaf.groups;
-    int active_groups[kGroups];
-    Mask<kLanes> active[kGroups];
-    int count = 0;
     for (; groups != 0; groups &= groups - 1) {
       const int group = __builtin_ctz(groups);
       const Mask<kLanes> inside = meets_box(group * kLanes, leaf.box);
       if (inside.bits() == 0) continue;
-      lanes_ += __builtin_popcount(inside.bits());
-      active_groups[count] = group;
-      active[count++] = inside;
+      active.lanes += __builtin_popcount(inside.bits());
+      active.group[active.count] = group;
+      active.rays[active.count++] = inside;
     }
-    if (count == 0) return;
+    return active;
+  }
 
-    const std::uint32_t first = WideChild::first_block(leaf.child);
-    const std::uint32_t end = first + WideChild::blocks(leaf.child);
+  /// Holds a block's triangles against the rays; bit by bit the groups, as `active` counts them,
+  /// with a new best hit.
+  [[gnu::always_inline]] unsigned test_block(std::uint32_t index, const ActiveRays& active) {
+    const std::uint32_t* const ids = scene_.tree.ids + TriangleBlock::kSize * index;
+    PreparedBlock block;
+    prepare<kCommon, Tester::kFilter>(scene_.tree.blocks[index], ids, packet_, block);
+    const unsigned all = (1U << block.count) - 1U;
+    unsigned may_hit[kGroups];
+    const bool cull = kCommon && active.lanes >= kCulledLanes;
+    if (cull) cull_.find(block, active.group, active.count, may_hit);
     unsigned changed = 0;
-    for (std::uint32_t b = first; b < end; ++b) {
-      const std::uint32_t* const ids = scene_.tree.ids + TriangleBlock::kSize * b;
-      PreparedBlock block;
-      prepare<kCommon, Tester::kFilter>(scene_.tree.blocks[b], ids, packet_, block);
-      for (int i = 0; i < count; ++i) {
-        const GroupRays rays{packet_, active_groups[i] * kLanes};
-        if (Tester::template test<kAnyHit, kCommon>(scene_, block, ids, rays, active[i])) {
-          changed |= 1U << i;
-        }
+    for (int i = 0; i < active.count; ++i) {
+      const GroupRays rays{packet_, active.group[i] * kLanes};
+      const unsigned triangles = cull ? all & may_hit[i] : all;
+      if (triangles == 0) continue;
+      const unsigned bits = active.rays[i].bits();
+      bool hit;
+      if (Tester::few_pay(kAnyHit) && triangles == 0xFU &&
+          __builtin_popcount(bits) <= FewRays::kMost) {
+        hit = Tester::template test_few<kAnyHit, kCommon>(scene_, block, ids, rays, FewRays(bits));
+      } else {
+        hit = Tester::template test<kAnyHit, kCommon>(scene_, block, ids, rays, active.rays[i],
+                                                      triangles);
       }
+      if (hit) changed |= 1U << i;
     }
-    if (changed == 0) return;
-    for (; changed != 0; changed &= changed - 1) limit_group(active_groups[__builtin_ctz(changed)]);
-    limit_whole();
+    return changed;
   }
 
   /// Which of a group's rays meet a box before their best hits, as the slab test of single rays.
@@ -180,16 +216,22 @@ class PacketTrace {
     return enter * F::all(kNarrow) <= leave * F::all(kWiden);
   }
 
-  /// How far along w the rays of a group, and of all groups, are still to be followed.
-  [[gnu::always_inline]] void limit_group(int group) {
+  /// How far along w the rays of a group are still to be followed; false if as far as before.
+  [[gnu::always_inline]] bool limit_group(int group) {
     const int first = group * kLanes;
     const F reach = F::load(packet_.t + first) * F::all(Tester::kReach);
     F limit = reach * F::load(frustums_.along + first);
     if constexpr (!kCommon) limit = limit + F::load(frustums_.start + first);
-    group_limit_[group] = greatest_of(limit) * kWiden + kTinyLength;
+    // Mostly the farthest ray is still on its way.
+    if ((limit >= F::all(farthest_[group])).bits() != 0) return false;
+    farthest_[group] = greatest_of(limit);
+    frustums_.groups.limit = select(Mask<kGroups>::of_bits(1U << group),
+                                    Floats<kGroups>::all(farthest_[group] * kWiden + kTinyLength),
+                                    frustums_.groups.limit);
+    return true;
   }
+  /// The same for all groups.
   [[gnu::always_inline]] void limit_whole() {
-    frustums_.groups.limit = Floats<kGroups>::load(group_limit_);
     limit_ = greatest_of(frustums_.groups.limit);
     frustums_.whole.limit = Floats<8>::all(limit_);
   }
@@ -198,10 +240,11 @@ class PacketTrace {
   RayPacket& packet_;
   PacketFrustums& frustums_;
   float limit_ = 0;
-  alignas(64) float group_limit_[kGroups];
+  float farthest_[kGroups];
   int count_ = 0;
   int leaves_ = 0, lanes_ = 0;  ///< visited, and rays that met those
   bool has_inverses_ = false;
+  GroupCull cull_;
   Waiting waiting_[WideTree::kStackSize + 1];
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/kernels/points.h"
+#include "accel/kernels/wide_tile_few.h"
 #include "accel/kernels/wide_tile_packet.h"
 #include "accel/wide/wide_tree.h"
 #include "scene/triangle.h"
@@ -123,25 +124,43 @@ struct Weights {
   Floats<kLanes> size, u, v, distance, sign;
 };
 
-template <bool kCommon>
-[[gnu::always_inline]] inline Weights weigh(const PreparedBlock& block, int lane,
+/// One triangle of a block, for all lanes.
+struct OneTriangle {
+  const PreparedBlock& block;
+  int lane;
+
+  [[gnu::always_inline]] Floats<kLanes> number(int at) const {
+    return Floats<kLanes>::all(block.row[at][lane]);
+  }
+};
+/// A block's four triangles, for as many rays as FewRays has.
+struct FourTriangles {
+  const PreparedBlock& block;
+
+  [[gnu::always_inline]] Floats<kLanes> number(int at) const { return repeat_fours(block.row[at]); }
+};
+
+template <bool kCommon, class Triangles>
+[[gnu::always_inline]] inline Weights weigh(const Triangles& triangles,
                                             const Points<kLanes>& origin,
-                                            const Points<kLanes>& direction, Points<kLanes>& s) {
+                                            const Points<kLanes>& direction) {
   using F = Floats<kLanes>;
-  const auto e1 = block.get<kLanes>(PreparedBlock::kE1, lane);
-  const auto e2 = block.get<kLanes>(PreparedBlock::kE2, lane);
+  const auto point = [&](int at) __attribute__((always_inline)) {
+    return Points<kLanes>{triangles.number(at), triangles.number(at + 1), triangles.number(at + 2)};
+  };
+  const auto e1 = point(PreparedBlock::kE1);
+  const auto e2 = point(PreparedBlock::kE2);
   const auto p = cross(direction, e2);
   const F det = dot(e1, p);
   Weights w;
   w.sign = det & F::all(-0.0F);
   w.size = det ^ w.sign;
   if constexpr (kCommon) {
-    s = block.get<kLanes>(PreparedBlock::kS, lane);
-    w.u = dot(s, p) ^ w.sign;
-    w.v = dot(direction, block.get<kLanes>(PreparedBlock::kQ, lane)) ^ w.sign;
-    w.distance = F::all(block.row[PreparedBlock::kDistance][lane]);
+    w.u = dot(point(PreparedBlock::kS), p) ^ w.sign;
+    w.v = dot(direction, point(PreparedBlock::kQ)) ^ w.sign;
+    w.distance = triangles.number(PreparedBlock::kDistance);
   } else {
-    s = origin - block.get<kLanes>(PreparedBlock::kV0, lane);
+    const auto s = origin - point(PreparedBlock::kV0);
     w.u = dot(s, p) ^ w.sign;
     const auto q = cross(s, e1);
     w.v = dot(direction, q) ^ w.sign;
@@ -161,9 +180,18 @@ struct GroupRays {
   [[gnu::always_inline]] Points<kLanes> direction() const {
     return Points<kLanes>::load(packet.direction[0] + first, kPacketRays);
   }
+  [[gnu::always_inline]] Points<kLanes> origin(const FewRays& few) const {
+    return few.points(packet.origin[0] + first, kPacketRays);
+  }
+  [[gnu::always_inline]] Points<kLanes> direction(const FewRays& few) const {
+    return few.points(packet.direction[0] + first, kPacketRays);
+  }
   /// The one that TriangleFilter's bound holds for.
   [[gnu::always_inline]] Points<kLanes> filter_direction() const {
     return Points<kLanes>::load(packet.settling.direction[0] + first, kPacketRays);
+  }
+  [[gnu::always_inline]] Points<kLanes> filter_direction(const FewRays& few) const {
+    return few.points(packet.settling.direction[0] + first, kPacketRays);
   }
 };
 
@@ -177,20 +205,21 @@ struct TraceScene {
 /// Holds a block's triangles against the `active` rays of a group; true if a best hit changed.
 struct MollerTrumborePackets {
   static constexpr bool kFilter = false;
+  static constexpr bool few_pay(bool) { return true; }
   static constexpr float kReach = 1.0F + 0x1p-12F;
 
   template <bool kAnyHit, bool kCommon>
   [[gnu::always_inline]] static bool test(const TraceScene&, const PreparedBlock& block,
                                           const std::uint32_t* ids, const GroupRays& rays,
-                                          Mask<kLanes> active) {
+                                          Mask<kLanes> active, unsigned triangles) {
     using F = Floats<kLanes>;
     const F zero = F::all(0.0F);
     const Points<kLanes> origin = kCommon ? Points<kLanes>{} : rays.origin();
     const Points<kLanes> direction = rays.direction();
     bool changed = false;
-    for (int lane = 0; lane < block.count; ++lane) {
-      Points<kLanes> s;
-      const Weights w = weigh<kCommon>(block, lane, origin, direction, s);
+    for (; triangles != 0; triangles &= triangles - 1) {
+      const int lane = __builtin_ctz(triangles);
+      const Weights w = weigh<kCommon>(OneTriangle{block, lane}, origin, direction);
       const Mask<kLanes> inside =
           active & (w.size > zero) & (w.u >= zero) & (w.v >= zero) & (w.u + w.v <= w.size);
       if (inside.bits() == 0) continue;
@@ -199,7 +228,44 @@ struct MollerTrumborePackets {
     return changed;
   }
 
+  /// The same for a few rays.
+  template <bool kAnyHit, bool kCommon>
+  [[gnu::always_inline]] static bool test_few(const TraceScene&, const PreparedBlock& block,
+                                              const std::uint32_t* ids, const GroupRays& rays,
+                                              const FewRays& few) {
+    using F = Floats<kLanes>;
+    const F zero = F::all(0.0F);
+    const Points<kLanes> origin = kCommon ? Points<kLanes>{} : rays.origin(few);
+    const Weights w = weigh<kCommon>(FourTriangles{block}, origin, rays.direction(few));
+    const Mask<kLanes> hit =
+        (w.size > zero) & (w.u >= zero) & (w.v >= zero) & (w.u + w.v <= w.size);
+    unsigned inside = hit.bits() & few.lanes();
+    if (inside == 0) return false;
+    const F inverse = F::all(1.0F) / w.size;
+    alignas(64) float t[kLanes], u[kLanes], v[kLanes];
+    ((w.distance ^ w.sign) * inverse).store(t);
+    (w.u * inverse).store(u);
+    (w.v * inverse).store(v);
+    RayPacket& packet = rays.packet;
+    bool changed = false;
+    for (; inside != 0; inside &= inside - 1) {
+      const int lane = __builtin_ctz(inside);
+      const int i = rays.first + few.ray(lane);
+      const std::uint32_t id = ids[lane % 4];
+      if (!(t[lane] > packet.t_min[i] && t[lane] <= kLargest && t[lane] <= packet.t[i])) continue;
+      if (!kAnyHit && t[lane] == packet.t[i] && id >= packet.triangle[i]) continue;
+      packet.t[i] = kAnyHit ? -__builtin_inff() : t[lane];
+      packet.triangle[i] = id;
+      packet.u[i] = u[lane];
+      packet.v[i] = v[lane];
+      changed = true;
+    }
+    return changed;
+  }
+
  private:
+  static constexpr float kLargest = 0x1.fffffep+127F;
+
   template <bool kAnyHit>
   [[gnu::always_inline]] static bool accept(Mask<kLanes> inside, const Weights& w, std::uint32_t id,
                                             const GroupRays& rays) {
@@ -209,8 +275,8 @@ struct MollerTrumborePackets {
     const F inverse = F::all(1.0F) / w.size;
     const F t = (w.distance ^ w.sign) * inverse;
     const F best = F::load(packet.t + first);
-    Mask<kLanes> better = inside & (t > F::load(packet.t_min + first)) &
-                          (t <= F::all(0x1.fffffep+127F)) & (t <= best);
+    Mask<kLanes> better =
+        inside & (t > F::load(packet.t_min + first)) & (t <= F::all(kLargest)) & (t <= best);
     if (better.bits() == 0) return false;
     const F now = F::load(packet.triangle + first);
     if constexpr (!kAnyHit) {
