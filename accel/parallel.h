@@ -40,13 +40,10 @@ class Workers {
     if (!parallel()) return work();
     tbb::task_arena arena(threads_);
     TaskHandover handover;
-    handover.before_all();
     arena.execute([&] {
-      handover.begin();
+      const TaskHandover::Task task(handover);
       work();
-      handover.end();
     });
-    handover.after_all();
   }
 
   /// body(begin, end) over [0, count), in parts of `part` elements (the last may be smaller), in
@@ -60,16 +57,13 @@ class Workers {
       return;
     }
     TaskHandover handover;
-    handover.before_all();
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, parts, 1),
         [&](const tbb::blocked_range<std::size_t>& range) ENCORE_NOT_THREAD_SANITIZED {
-          handover.begin();
+          const TaskHandover::Task task(handover);
           for (std::size_t k = range.begin(); k < range.end(); ++k) run_part(k);
-          handover.end();
         },
         tbb::simple_partitioner());
-    handover.after_all();
   }
 
   /// Both calls, at once if `worth_it`; returns when both are done.
@@ -81,12 +75,10 @@ class Workers {
       return;
     }
     TaskHandover handover;
-    handover.before_all();
     tbb::task_group group;
     group.run([&]() ENCORE_NOT_THREAD_SANITIZED {
-      handover.begin();
+      const TaskHandover::Task task(handover);
       second();
-      handover.end();
     });
     try {
       first();
@@ -97,7 +89,6 @@ class Workers {
       throw;
     }
     group.wait();
-    handover.after_all();
   }
 
  private:

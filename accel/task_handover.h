@@ -23,30 +23,44 @@ namespace encore::accel {
 /// Tells the thread sanitizer how work passes from one thread to others and back through oneTBB,
 /// whose library is not built with it. Says nothing of one task's work to another, so races between
 /// tasks are still found. In other builds nothing is left of it.
+///
+/// Where it lives: what was written before, tasks may read; what they have written may be read
+/// after it, also where one of them has thrown.
 class TaskHandover {
  public:
 #ifdef ENCORE_THREAD_SANITIZER
-  void before_all() {
+  TaskHandover() {
     __tsan_release(&begun_);
-  }  ///< what was written so far, tasks may read
-  void begin() {
-    __tsan_acquire(&begun_);
-  }  ///< a task begins
-  void end() {
-    __tsan_release(&ended_);
-  }  ///< a task ends
-  void after_all() {
+  }
+  ~TaskHandover() {
     __tsan_acquire(&ended_);
-  }  ///< what tasks have written may be read
+  }
+  TaskHandover(const TaskHandover&) = delete;
+  TaskHandover& operator=(const TaskHandover&) = delete;
+
+  /// A task, from where it begins to where it ends.
+  class Task {
+   public:
+    explicit Task(TaskHandover& handover) : handover_(handover) {
+      __tsan_acquire(&handover_.begun_);
+    }
+    ~Task() { __tsan_release(&handover_.ended_); }
+    Task(const Task&) = delete;
+    Task& operator=(const Task&) = delete;
+
+   private:
+    TaskHandover& handover_;
+  };
 
  private:
   char begun_ = 0;
   char ended_ = 0;
 #else
-  void before_all() {}
-  void begin() {}
-  void end() {}
-  void after_all() {}
+  TaskHandover() {}
+  class Task {
+   public:
+    explicit Task(TaskHandover& /*handover*/) {}
+  };
 #endif
 };
 

@@ -227,22 +227,19 @@ void CpuTracer::for_each_tile(int width, int height, const TileWork& work) {
     return;
   }
   // One tile a task: tiles differ a hundredfold in cost, and a task costs far less than a tile.
-  accel::TaskHandover handover;
   const auto run_tiles = [&](const tbb::blocked_range<int>& range) {
     for (int index = range.begin(); index < range.end(); ++index) run_tile(index);
   };
-  handover.before_all();
+  accel::TaskHandover handover;
   arena_->execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, columns * rows, 1),
         [&](const tbb::blocked_range<int>& range) ENCORE_NOT_THREAD_SANITIZED {
-          handover.begin();
+          const accel::TaskHandover::Task task(handover);
           run_tiles(range);
-          handover.end();
         },
         tbb::simple_partitioner());
   });
-  handover.after_all();
 }
 
 void CpuTracer::check_ready() const {

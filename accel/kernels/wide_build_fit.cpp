@@ -73,8 +73,10 @@ inline void fetch_block(const scene::Triangle* triangles, const std::uint32_t* i
 }  // namespace
 
 void build_fit(const scene::Triangle* triangles, const std::uint32_t* ids, TriangleBlock* blocks,
-               gpu::WideNode* nodes, std::size_t begin, std::size_t end, bool keep_leaves) {
-  for (std::size_t i = end; i-- > begin;) {
+               gpu::WideNode* nodes, const WideFit& fit) {
+  const std::uint32_t fetched = fit.first_block + kAhead;
+  const bool keep_leaves = fit.keep_leaves;
+  for (std::size_t i = fit.end; i-- > fit.begin;) {
     gpu::WideNode& node = nodes[i];
     for (int k = 0; k < 8; ++k) {
       const std::uint32_t child = node.child[k];
@@ -87,7 +89,7 @@ void build_fit(const scene::Triangle* triangles, const std::uint32_t* ids, Trian
         continue;
       }
       const std::uint32_t first = WideChild::first_block(child), count = WideChild::blocks(child);
-      if (first >= kAhead) fetch_block(triangles, ids + 4 * std::size_t{first - kAhead});
+      if (first >= fetched) fetch_block(triangles, ids + 4 * std::size_t{first - kAhead});
       Ends box = fill_block(triangles, ids + 4 * std::size_t{first}, blocks[first]);
       for (std::uint32_t b = first + 1; b < first + count; ++b) {
         const Ends more = fill_block(triangles, ids + 4 * std::size_t{b}, blocks[b]);

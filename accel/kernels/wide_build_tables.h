@@ -28,6 +28,6 @@ void build_refine(const scene::Triangle* triangles, const std::uint64_t* keys, s
                   const WideMorton& morton, std::uint64_t* fine);
 void build_morton_subtree(const WideBuildArrays& arrays, WideSubtree& subtree);
 void build_fit(const scene::Triangle* triangles, const std::uint32_t* ids, TriangleBlock* blocks,
-               gpu::WideNode* nodes, std::size_t begin, std::size_t end, bool keep_leaves);
+               gpu::WideNode* nodes, const WideFit& fit);
 
 }  // namespace encore::accel::ENCORE_ISA

@@ -116,6 +116,18 @@ struct WideMorton {
   std::uint32_t spread[3][3][256];
 };
 
+/// Which nodes' boxes are fitted: [begin, end).
+struct WideFit {
+  std::size_t begin, end;
+  /// From here on blocks' triangles are fetched before their turn; those before may still be
+  /// written by others.
+  std::uint32_t first_block = 0;
+  bool keep_leaves = false;  ///< the boxes of leaves are left as they are
+
+  /// For WideFit::first_block: nothing is fetched early.
+  static constexpr std::uint32_t kNoBlock = 0x7FFFFFFFU;
+};
+
 /// The inner loops of the builder for one instruction set (see wide_kernels.h). All give the same
 /// tree.
 struct WideBuildKernels {
@@ -152,10 +164,10 @@ struct WideBuildKernels {
                  const WideMorton& morton, std::uint64_t* fine);
   void (*sah_subtree)(const WideBuildArrays& arrays, WideSubtree& subtree);
   void (*morton_subtree)(const WideBuildArrays& arrays, WideSubtree& subtree);
-  /// Copies the corners of the leaves of nodes [begin, end) into their blocks and fits the boxes,
-  /// last node first; those of leaves are left as they are if `keep_leaves`.
+  /// Copies the corners of the leaves of some nodes into their blocks and fits the boxes, last node
+  /// first.
   void (*fit)(const scene::Triangle* triangles, const std::uint32_t* ids, TriangleBlock* blocks,
-              gpu::WideNode* nodes, std::size_t begin, std::size_t end, bool keep_leaves);
+              gpu::WideNode* nodes, const WideFit& fit);
 };
 
 /// Throws std::invalid_argument for an instruction set that is not among available_isas().

@@ -86,7 +86,7 @@ class Finish {
         }
       }
     }
-    fit(place.node, place.node + subtree.nodes);
+    fit({place.node, place.node + std::size_t{subtree.nodes}, place.block, run_.parts});
   }
 
   void emit_top(std::size_t index) {
@@ -103,7 +103,7 @@ class Finish {
         node.child[k] = place.child[k].node;
       }
     }
-    fit(place.node, place.node + 1);
+    fit({place.node, place.node + std::size_t{1}, WideFit::kNoBlock, run_.parts});
   }
 
   static void no_child(gpu::WideNode& node, std::uint32_t k) {
@@ -133,9 +133,9 @@ class Finish {
     return blocks;
   }
 
-  void fit(std::size_t begin, std::size_t end) {
+  void fit(const WideFit& nodes) {
     run_.kernels.fit(run_.triangles.data(), tree_.ids.data(), tree_.blocks.data(),
-                     tree_.nodes.data(), begin, end, run_.parts);
+                     tree_.nodes.data(), nodes);
   }
 
   void fit_root() {

@@ -40,8 +40,8 @@ void WideBuilder::refit(std::span<const scene::Triangle> triangles, Workers& wor
                         WideTree& tree) {
   if (tree.nodes.empty()) return;
   const auto fit = [&](std::size_t begin, std::size_t end) {
-    kernels_->fit(triangles.data(), tree.ids.data(), tree.blocks.data(), tree.nodes.data(), begin,
-                  end, false);
+    kernels_->fit(triangles.data(), tree.ids.data(), tree.blocks.data(), tree.nodes.data(),
+                  {begin, end});
   };
   if (workers.parallel()) {
     std::vector<std::size_t> above;

@@ -25,6 +25,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -135,6 +136,10 @@ void compete(const std::string& name, int size, int loops) {
 
   const auto frames =
       static_cast<std::uint64_t>(std::lround(scene.duration_s() * kFramesPerSecond));
+  if (frames == 0) {
+    throw std::invalid_argument(
+        fmt::format("{} does not move; try {}!, which flies apart", name, name));
+  }
   std::vector<std::vector<double>> totals(all.size());
   std::uint64_t number = 0;
   for (int loop = 0; loop < loops; ++loop) {
