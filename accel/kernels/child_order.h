@@ -24,7 +24,8 @@ namespace encore::accel::ENCORE_ISA {
   __m256i key = _mm256_castps_si256(enter.v);
   key = _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(kNumber), key), numbers);
 #if defined(ENCORE_AVX512)
-  key = _mm256_mask_blend_epi32(static_cast<__mmask8>(met.m), not_met, key);
+  key = _mm256_mask_compress_epi32(not_met, static_cast<__mmask8>(met.m), key);
+  const auto count = static_cast<std::uint32_t>(__builtin_popcount(met.m));
 #define ENCORE_SORT_STEP(SHUFFLED, LOWER)                                         \
   {                                                                               \
     const __m256i other = SHUFFLED;                                               \
@@ -42,16 +43,26 @@ namespace encore::accel::ENCORE_ISA {
   ENCORE_SORT_STEP(_mm256_shuffle_epi32(key, 0xB1), 0xAA)
   ENCORE_SORT_STEP(_mm256_shuffle_epi32(key, 0x1B), 0xCC)
   ENCORE_SORT_STEP(_mm256_shuffle_epi32(key, 0xB1), 0xAA)
-  ENCORE_SORT_STEP(_mm256_permutevar8x32_epi32(key, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)),
-                   0xF0)
-  ENCORE_SORT_STEP(_mm256_shuffle_epi32(key, 0x4E), 0xCC)
-  ENCORE_SORT_STEP(_mm256_shuffle_epi32(key, 0xB1), 0xAA)
+#if defined(ENCORE_AVX512)
+  // Four at most stand in one half.
+  if (count > 4) [[unlikely]]
+#endif
+  {
+    ENCORE_SORT_STEP(_mm256_permutevar8x32_epi32(key, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)),
+                     0xF0)
+    ENCORE_SORT_STEP(_mm256_shuffle_epi32(key, 0x4E), 0xCC)
+    ENCORE_SORT_STEP(_mm256_shuffle_epi32(key, 0xB1), 0xAA)
+  }
 #undef ENCORE_SORT_STEP
   const __m256i child = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(children));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(places), _mm256_permutevar8x32_epi32(child, key));
   _mm256_storeu_ps(enters,
                    _mm256_castsi256_ps(_mm256_andnot_si256(_mm256_set1_epi32(kNumber), key)));
+#if defined(ENCORE_AVX512)
+  return count;
+#else
   return static_cast<std::uint32_t>(__builtin_popcount(met.bits()));
+#endif
 #else
   alignas(32) std::int32_t bits[8];
   enter.store(bits);
