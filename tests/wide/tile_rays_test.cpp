@@ -132,6 +132,51 @@ INSTANTIATE_TEST_SUITE_P(Hard, UnevenTile, testing::Range(std::size_t{0}, some_c
                            return name;
                          });
 
+/// A tilted square of `side` x `side` squares, two triangles each.
+std::vector<Triangle> tilted_squares(int side, float scale) {
+  const glm::vec3 u{0.9F, 0.1F, -0.3F}, v{-0.2F, 0.8F, 0.4F};
+  const auto corner = [&](int x, int y) {
+    const float a = 2.0F * static_cast<float>(x) / static_cast<float>(side) - 1.0F;
+    const float b = 2.0F * static_cast<float>(y) / static_cast<float>(side) - 1.0F;
+    return scale * (a * u + b * v);
+  };
+  std::vector<Triangle> squares;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const glm::vec3 a = corner(x, y), b = corner(x + 1, y + 1);
+      squares.push_back(scene::make_triangle(a, corner(x + 1, y), b));
+      squares.push_back(scene::make_triangle(a, b, corner(x, y + 1)));
+    }
+  }
+  return squares;
+}
+
+/// Whole groups of rays that meet large triangles right at their edges and corners: what is thrown
+/// out for a group must be what each of its rays misses.
+TEST(TileRays, AimedAtEdgesOfLargeTrianglesFromOnePoint) {
+  for (const float scale : {1.0F, 0x1p-60F, 0x1p40F}) {
+    for (const int side : {1, 2, 4, 8, 16}) {
+      WideBvh wide({}, MemoryMode::pool);
+      const std::vector<Triangle> squares = tilted_squares(side, scale);
+      wide.build(squares);
+      for (const glm::vec3& eye : {glm::vec3{0.3F, -0.2F, 2.0F}, glm::vec3{2.5F, 1.5F, 0.4F}}) {
+        const glm::vec3 u{0.9F, 0.1F, -0.3F}, v{-0.2F, 0.8F, 0.4F};
+        const Tile tile = make_tile("edges", 33, 33, [&](float x, float y) {
+          const float a = std::round(33.0F * x - 0.5F) / 16.0F - 1.0F;
+          const float b = std::round(33.0F * y - 0.5F) / 16.0F - 1.0F;
+          return through(scale * eye, scale * (a * u + b * v));
+        });
+        const std::string name = std::to_string(side) + " squares a side";
+        expect_same(wide, name, tile);
+        for (const float length : {0x1p-50F, 0x1p50F}) {
+          expect_same(wide, name,
+                      of_lengths(tile, "other length", [&](std::size_t) { return length; }));
+        }
+      }
+    }
+  }
+}
+
 /// Any-hit takes a triangle right before the origin for certain where its distance is not, and a
 /// nearest hit does not: both have to agree about which side it is on.
 TEST(TileRays, SeeTheSideOfWhatIsRightBeforeThem) {
