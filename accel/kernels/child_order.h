@@ -18,6 +18,7 @@ namespace encore::accel::ENCORE_ISA {
                                                           float* enters, std::uint32_t* places) {
   constexpr std::uint32_t kNumber = 7;
 #if defined(__AVX2__)
+  const auto count = static_cast<std::uint32_t>(__builtin_popcount(met.bits()));
   const __m256i numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const __m256i not_met = _mm256_set1_epi32(-0x7FFFFFFF - 1);
   // No distance but -0 could be taken for a child that is not met.
@@ -25,7 +26,6 @@ namespace encore::accel::ENCORE_ISA {
   key = _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(kNumber), key), numbers);
 #if defined(ENCORE_AVX512)
   key = _mm256_mask_compress_epi32(not_met, static_cast<__mmask8>(met.m), key);
-  const auto count = static_cast<std::uint32_t>(__builtin_popcount(met.m));
 #define ENCORE_SORT_STEP(SHUFFLED, LOWER)                                         \
   {                                                                               \
     const __m256i other = SHUFFLED;                                               \
@@ -58,11 +58,7 @@ namespace encore::accel::ENCORE_ISA {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(places), _mm256_permutevar8x32_epi32(child, key));
   _mm256_storeu_ps(enters,
                    _mm256_castsi256_ps(_mm256_andnot_si256(_mm256_set1_epi32(kNumber), key)));
-#if defined(ENCORE_AVX512)
   return count;
-#else
-  return static_cast<std::uint32_t>(__builtin_popcount(met.bits()));
-#endif
 #else
   alignas(32) std::int32_t bits[8];
   enter.store(bits);

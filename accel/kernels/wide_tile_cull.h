@@ -44,10 +44,13 @@ class GroupCull {
 
  private:
   static constexpr int kAtOnce = kLanes / 4;  ///< groups in a register, each with four triangles
+  // TriangleFilter's bound is for directions below 2, as slopes are here: what testers round and
+  // what is rounded here are less than twice that. With room.
   static constexpr float kError = 8.0F * ENCORE_FILTER_LARGEST * ENCORE_FILTER_ERROR;
   // Not the filter's: Möller-Trumbore's directions are of any length.
   static constexpr float kUnderflow = 0x1p-80F;
 
+  /// Of a block: u, v and what is left of the determinant as functions of a direction.
   [[gnu::always_inline]] void take(const PreparedBlock& block) {
     using F = Floats<4>;
     const auto row = [&](int at) __attribute__((always_inline)) {
