@@ -194,16 +194,14 @@ void trace_tile(const View& view, const TileJob& job) {
       const std::size_t first = y * job.width + x;
       const scene::Ray* const rays = job.rays + first;
       const std::size_t next = job.width - x <= columns ? (y + rows) * job.width : first + columns;
-      const auto prefetch = [&](auto to_write, const auto* from) {
-        prefetch_rows<decltype(to_write)::value>(from, next, job.width,
-                                                 static_cast<std::uint32_t>(columns),
-                                                 static_cast<std::uint32_t>(rows));
+      const auto prefetch = [&](const auto* answers) {
+        prefetch_packet(job.rays, answers, next, job.width, static_cast<std::uint32_t>(columns),
+                        static_cast<std::uint32_t>(rows));
       };
-      prefetch(std::false_type{}, job.rays);
-      if (kAnyHit) {
-        prefetch(std::true_type{}, job.blocked);
+      if constexpr (kAnyHit) {
+        prefetch(job.blocked);
       } else {
-        prefetch(std::true_type{}, job.hits);
+        prefetch(job.hits);
       }
       load_rays(rays, packet);
       if (trace_tile_packet<Trace, typename Plan::Tester, kAnyHit>(view, job.triangles, rays,

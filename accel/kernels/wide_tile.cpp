@@ -53,10 +53,8 @@ template <class Answer, class Together, class Alone>
         set_columns = has_columns;
       }
       const bool last = width - x <= columns;
-      // Behind a rectangle often comes another one; nothing is read there.
       const std::size_t next = last ? (y + rows) * width : y * width + x + columns;
-      prefetch_rows<false>(rays, next, width, columns, rows);
-      prefetch_rows<true>(answers, next, width, columns, rows);
+      prefetch_packet(rays, answers, next, width, columns, rows);
       if (together(y * width + x)) {
         for (std::size_t k = 0; k < left; ++k) alone_in(y, k * columns, has_rows);
         left = 0;

@@ -96,6 +96,7 @@ template <bool kCommon>
 template <bool kPrecise>
 struct DoubtingPackets {
   static constexpr bool kFilter = true;
+  /// Whether test_few() is quicker. What the filter leaves is judged triangle by triangle.
   static constexpr bool few_pay(bool any_hit) { return any_hit; }
   static constexpr float kReach = 1.0F + 2 * ENCORE_WATERTIGHT_DISTANCE;
 
@@ -108,8 +109,7 @@ struct DoubtingPackets {
     bool changed = false;
     for (; triangles != 0; triangles &= triangles - 1) {
       const int lane = __builtin_ctz(triangles);
-      const Filtered<kLanes> filtered =
-          filter<kCommon>(OneTriangle{block, lane}, origin, direction);
+      const Filtered filtered = filter<kCommon>(OneTriangle{block, lane}, origin, direction);
       const Mask<kLanes> left = without(active, filtered.missed);
       if (left.bits() == 0) continue;
       const unsigned hit =
@@ -129,7 +129,7 @@ struct DoubtingPackets {
                                               const std::uint32_t* ids, const GroupRays& rays,
                                               const FewRays& few) {
     const Points<kLanes> origin = kCommon ? Points<kLanes>{} : rays.origin(few);
-    const Filtered<kLanes> filtered =
+    const Filtered filtered =
         filter<kCommon>(FourTriangles{block}, origin, rays.filter_direction(few));
     const unsigned left = few.lanes() & ~filtered.missed.bits();
     if (left == 0) return false;
@@ -150,15 +150,14 @@ struct DoubtingPackets {
 
  private:
   /// What TriangleFilter's test is certain of.
-  template <int N>
   struct Filtered {
-    Mask<N> missed, inside;
+    Mask<kLanes> missed, inside;
   };
 
   template <bool kCommon, class Triangles>
-  [[gnu::always_inline]] static Filtered<kLanes> filter(const Triangles& triangles,
-                                                        const Points<kLanes>& origin,
-                                                        const Points<kLanes>& direction) {
+  [[gnu::always_inline]] static Filtered filter(const Triangles& triangles,
+                                                const Points<kLanes>& origin,
+                                                const Points<kLanes>& direction) {
     using F = Floats<kLanes>;
     const Weights w = weigh<kCommon>(triangles, origin, direction);
     const F error = triangles.number(PreparedBlock::kError);

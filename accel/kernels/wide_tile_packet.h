@@ -229,4 +229,14 @@ template <bool kToWrite, class Element>
   }
 }
 
+/// The same for the packet that comes next, its rays and the places of its answers. Behind a
+/// rectangle often comes another one; nothing is read there.
+template <class Answer>
+[[gnu::always_inline]] inline void prefetch_packet(const scene::Ray* rays, const Answer* answers,
+                                                   std::size_t first, std::size_t width,
+                                                   std::uint32_t columns, std::uint32_t rows) {
+  prefetch_rows<false>(rays, first, width, columns, rows);
+  prefetch_rows<true>(answers, first, width, columns, rows);
+}
+
 }  // namespace encore::accel::ENCORE_ISA

@@ -45,11 +45,6 @@ struct PreparedBlock {
     p.z.store(row[at + 2]);
   }
   template <int N>
-  [[gnu::always_inline]] Points<N> get(int at, int lane) const {
-    return {Floats<N>::all(row[at][lane]), Floats<N>::all(row[at + 1][lane]),
-            Floats<N>::all(row[at + 2][lane])};
-  }
-  template <int N>
   [[gnu::always_inline]] Floats<N> coordinate(int vertex, int axis, int lane) const {
     return Floats<N>::all(corners[vertex * next_vertex + axis * next_axis + lane]);
   }
@@ -205,7 +200,8 @@ struct TraceScene {
 /// Holds a block's triangles against the `active` rays of a group; true if a best hit changed.
 struct MollerTrumborePackets {
   static constexpr bool kFilter = false;
-  static constexpr bool few_pay(bool) { return true; }
+  /// Whether test_few() is quicker.
+  static constexpr bool few_pay(bool /*any_hit*/) { return true; }
   static constexpr float kReach = 1.0F + 0x1p-12F;
 
   template <bool kAnyHit, bool kCommon>
