@@ -193,9 +193,8 @@ void trace_tile(const View& view, const TileJob& job) {
       }
       const std::size_t first = y * job.width + x;
       const scene::Ray* const rays = job.rays + first;
-      const std::size_t next = job.width - x <= columns ? (y + rows) * job.width : first + columns;
       const auto prefetch = [&](const auto* answers) {
-        prefetch_packet(job.rays, answers, next, job.width, static_cast<std::uint32_t>(columns),
+        prefetch_packet(job.rays, answers, x, y, job.width, static_cast<std::uint32_t>(columns),
                         static_cast<std::uint32_t>(rows));
       };
       if constexpr (kAnyHit) {

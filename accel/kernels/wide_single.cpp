@@ -31,6 +31,13 @@ struct alignas(64) TracedRay {
   to.v = hit.v;
 }
 
+/// Has an element on its way from memory.
+template <class Element>
+[[gnu::always_inline]] inline void prefetch(const Element* element) {
+  const auto* const from = reinterpret_cast<const char*>(element);
+  for (std::size_t i = 0; i < sizeof(Element); i += 64) __builtin_prefetch(from + i);
+}
+
 /// Rounds of all the rays that are under way, in passes that hardly branch: what is unforeseeable
 /// about a ray is which list it comes to stand in.
 template <bool AnyHit, class Blocks, class Answer>
@@ -60,10 +67,20 @@ class Stream {
  private:
   enum List : std::uint32_t { kNode, kLeaf, kEnd };
 
+  /// Nodes that together are no larger than this are close at hand, so that asking for them ahead
+  /// costs more than waiting for them.
+  static constexpr std::size_t kCachedNodes = (std::size_t{2} << 20) / sizeof(gpu::WideNode);
+
   [[gnu::always_inline]] void round() {
     const std::uint32_t nodes = length_[kNode];
-    for (std::uint32_t i = 0; i < nodes; ++i) visit(*list_[kNode][i]);
     const std::uint32_t leaves = length_[kLeaf];
+    if (tree_.node_count > kCachedNodes) {
+      for (std::uint32_t i = 0; i < leaves; ++i) {
+        prefetch(tree_.blocks + WideChild::first_block(list_[kLeaf][i]->child));
+      }
+      for (std::uint32_t i = 0; i < nodes; ++i) prefetch(tree_.nodes + list_[kNode][i]->child);
+    }
+    for (std::uint32_t i = 0; i < nodes; ++i) visit(*list_[kNode][i]);
     std::uint32_t candidates = 0;
     for (std::uint32_t i = 0; i < leaves; ++i) {
       Traveller* const t = list_[kLeaf][i];

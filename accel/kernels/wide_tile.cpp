@@ -22,11 +22,37 @@ bool trace_packet(const TraceScene& scene, RayPacket& packet) {
              : PacketTrace<Tester, kAnyHit, false>(scene, packet, frustums).run();
 }
 
+/// The rays of one packet, side by side: single rays are quick only in batches.
+template <class Answer>
+class LonePacket {
+ public:
+  /// Calls trace(rays, answers, count) for `rows` times `columns` rays of a rectangle.
+  template <class Trace>
+  [[gnu::always_inline]] void trace(const scene::Ray* rays, Answer* answers, std::size_t width,
+                                    std::size_t columns, std::size_t rows, const Trace& trace) {
+    for (std::size_t row = 0; row < rows; ++row) {
+      __builtin_memcpy(rays_ + row * columns * sizeof(scene::Ray), rays + row * width,
+                       columns * sizeof(scene::Ray));
+    }
+    trace(reinterpret_cast<const scene::Ray*>(rays_), reinterpret_cast<Answer*>(answers_),
+          rows * columns);
+    for (std::size_t row = 0; row < rows; ++row) {
+      __builtin_memcpy(answers + row * width, answers_ + row * columns * sizeof(Answer),
+                       columns * sizeof(Answer));
+    }
+  }
+
+ private:
+  // Bytes, as constructors would be functions that others share.
+  alignas(64) std::byte rays_[kPacketRays * sizeof(scene::Ray)];
+  alignas(64) std::byte answers_[kPacketRays * sizeof(Answer)];
+};
+
 /// Calls together(first ray) for all packets of a rectangle. For those of which it returns false,
-/// the rays go alone(first, count): a whole band of packets at once where none goes together, as
-/// single rays are quick only in long batches.
+/// the rays go alone(rays, answers, count): a whole band of packets at once where none goes
+/// together.
 template <class Answer, class Together, class Alone>
-[[gnu::always_inline]] inline void for_packets(const scene::Ray* rays, const Answer* answers,
+[[gnu::always_inline]] inline void for_packets(const scene::Ray* rays, Answer* answers,
                                                std::size_t width, std::size_t height,
                                                RayPacket& packet, const Together& together,
                                                const Alone& alone) {
@@ -35,9 +61,11 @@ template <class Answer, class Together, class Alone>
   while (columns < kPacketRays && kPacketRays / columns / 2 >= height) columns *= 2;
   const std::uint32_t rows = kPacketRays / columns;
   std::uint32_t set_columns = 0, set_rows = 0;
+  LonePacket<Answer> lone;
   const auto alone_in = [&](std::size_t y, std::size_t x, std::size_t has_rows) {
-    const std::size_t count = width - x < columns ? width - x : columns;
-    for (std::size_t row = 0; row < has_rows; ++row) alone((y + row) * width + x, count);
+    const std::size_t has_columns = width - x < columns ? width - x : columns;
+    const std::size_t first = y * width + x;
+    lone.trace(rays + first, answers + first, width, has_columns, has_rows, alone);
   };
   for (std::size_t y = 0; y < height; y += rows) {
     const auto has_rows = static_cast<std::uint32_t>(height - y < rows ? height - y : rows);
@@ -52,9 +80,7 @@ template <class Answer, class Together, class Alone>
         set_rows = has_rows;
         set_columns = has_columns;
       }
-      const bool last = width - x <= columns;
-      const std::size_t next = last ? (y + rows) * width : y * width + x + columns;
-      prefetch_packet(rays, answers, next, width, columns, rows);
+      prefetch_packet(rays, answers, x, y, width, columns, rows);
       if (together(y * width + x)) {
         for (std::size_t k = 0; k < left; ++k) alone_in(y, k * columns, has_rows);
         left = 0;
@@ -65,7 +91,7 @@ template <class Answer, class Together, class Alone>
         ++left;
       }
     }
-    if (left > 0) alone(y * width, has_rows * width);
+    if (left > 0) alone(rays + y * width, answers + y * width, has_rows * width);
   }
 }
 
@@ -98,8 +124,8 @@ void intersect(const WideView& tree, const scene::Triangle* triangles, const sce
     return true;
   };
   for_packets(rays, hits, width, height, packet, together,
-              [&](std::size_t first, std::size_t count) {
-                single(tree, triangles, rays + first, count, hits + first);
+              [&](const scene::Ray* from, scene::Hit* to, std::size_t count) {
+                single(tree, triangles, from, count, to);
               });
 }
 
@@ -117,8 +143,8 @@ void occluded(const WideView& tree, const scene::Triangle* triangles, const scen
     return true;
   };
   for_packets(rays, blocked, width, height, packet, together,
-              [&](std::size_t first, std::size_t count) {
-                single(tree, triangles, rays + first, count, blocked + first);
+              [&](const scene::Ray* from, std::uint8_t* to, std::size_t count) {
+                single(tree, triangles, from, count, to);
               });
 }
 

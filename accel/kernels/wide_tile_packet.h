@@ -215,28 +215,35 @@ inline void set_places(std::size_t width, std::uint32_t columns, std::uint32_t h
 }
 
 /// Has a rectangle of rays or answers, whose rows lie `width` of them apart, on its way from memory
-/// while another packet is traced: eight rows apart are more than the processor foresees.
-template <bool kToWrite, class Element>
+/// while others are traced: eight rows apart are more than the processor foresees. Into the second
+/// cache: so many lines on their way into the first would fill its queue, and what is traced
+/// meanwhile would wait for a place in it.
+template <class Element>
 [[gnu::always_inline]] inline void prefetch_rows(const Element* from, std::size_t first,
                                                  std::size_t width, std::uint32_t columns,
                                                  std::uint32_t rows) {
+  constexpr int kRead = 0, kSecondCache = 2;
   const auto start = reinterpret_cast<std::uintptr_t>(from) + first * sizeof(Element);
   for (std::uint32_t row = 0; row < rows; ++row) {
     const std::uintptr_t at = start + row * width * sizeof(Element);
     for (std::uint32_t i = 0; i < columns * sizeof(Element); i += 64) {
-      __builtin_prefetch(reinterpret_cast<const void*>(at + i), kToWrite ? 1 : 0);
+      __builtin_prefetch(reinterpret_cast<const void*>(at + i), kRead, kSecondCache);
     }
   }
 }
 
-/// The same for the packet that comes next, its rays and the places of its answers. Behind a
-/// rectangle often comes another one; nothing is read there.
+/// The same for the rays and the places of the answers of a packet to come, some after the one
+/// whose first ray is at (x, y). Behind a rectangle often comes another one; nothing is read there.
 template <class Answer>
 [[gnu::always_inline]] inline void prefetch_packet(const scene::Ray* rays, const Answer* answers,
-                                                   std::size_t first, std::size_t width,
+                                                   std::size_t x, std::size_t y, std::size_t width,
                                                    std::uint32_t columns, std::uint32_t rows) {
-  prefetch_rows<false>(rays, first, width, columns, rows);
-  prefetch_rows<true>(answers, first, width, columns, rows);
+  constexpr std::size_t kPacketsAhead = 4;
+  const std::size_t ahead = kPacketsAhead * columns;
+  const std::size_t to = x + (width < ahead ? width : ahead);
+  const std::size_t first = to < width ? y * width + to : (y + rows) * width + (to - width);
+  prefetch_rows(rays, first, width, columns, rows);
+  prefetch_rows(answers, first, width, columns, rows);
 }
 
 }  // namespace encore::accel::ENCORE_ISA
