@@ -226,11 +226,10 @@ void GlfwWindow::wake() {
 
 void GlfwWindow::pass_key(const KeyEvent& event) {
   // Dear ImGui looks at keys once a frame: a key that is pressed and let go between two frames
-  // would never have been down. It is let go a frame later.
-  if (event.action == GLFW_PRESS) pressed_.push_back(event.key);
-  const bool just_pressed =
-      std::find(pressed_.begin(), pressed_.end(), event.key) != pressed_.end();
-  if (event.action == GLFW_RELEASE && just_pressed) {
+  // would never have been down, or without the Ctrl that was let go after it. What is let go after
+  // a key went down is let go a frame later.
+  pressed_ = pressed_ || event.action == GLFW_PRESS;
+  if (event.action == GLFW_RELEASE && pressed_) {
     releases_.push_back(event);
     return;
   }
@@ -275,7 +274,7 @@ void GlfwWindow::end_frame(std::vector<unsigned char>* pixels) {
   const ImVec4 color = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
   glClearColor(color.x, color.y, color.z, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT);
-  pressed_.clear();
+  pressed_ = false;
   for (const KeyEvent& event : std::exchange(releases_, {})) {
     ImGui_ImplGlfw_KeyCallback(window_, event.key, event.code, event.action, event.modifiers);
     input_ = true;

@@ -80,7 +80,7 @@ class GlfwWindow {
   GLFWwindow* window_ = nullptr;
   std::vector<std::string> dropped_;
   bool input_ = false;
-  std::vector<int> pressed_;        ///< keys, since the last frame
+  bool pressed_ = false;            ///< a key went down since the last frame
   std::vector<KeyEvent> releases_;  ///< of those, to be told after the next frame
   MouseClicks clicks_;
   double events_since_ = 0.0;  ///< an event that waited came after this time

@@ -122,15 +122,8 @@ void Person::stroke(std::string_view keys, bool wait) {
     if (stroke.shift) held.push_back(XKeysymToKeycode(display_, XK_Shift_L));
     held.push_back(stroke.code);
   }
+  // Down no longer than a moment, however slow the frames are: a key that is held repeats.
   for (const KeyCode code : held) press_key(display_, code, true);
-  XSync(display_, False);
-  if (wait) {
-    wait_frames(2);
-  } else {
-    // The toolkit misses a key that goes up before the next frame.
-    const std::uint64_t from = program_.map().frame;
-    eventually([&] { return !program_.running() || program_.map().frame >= from + 2; });
-  }
   for (auto code = held.rbegin(); code != held.rend(); ++code) press_key(display_, *code, false);
   XSync(display_, False);
   if (wait) wait_frames(2);
