@@ -17,6 +17,9 @@ namespace encore::accel::ENCORE_ISA {
 //
 //   start(ray)         nothing hit so far
 //   look(block)        whether anything of the block may be hit
+//   look_both(a, block, b, block)   the same for two rays side by side: of what it returns a's are
+//   the last
+//                      four bits, b's the four before
 //   judge(block, ids)  after a look() that says so: true if the best hit changed
 //   limit()            how far to go on: no less than the true distance of the best hit
 //   hit                the best hit; if kNeedsFinish only its triangle, the rest is decide_hit()'s
@@ -63,17 +66,24 @@ class MollerTrumboreBlocks {
   [[gnu::always_inline]] float limit() const { return hit.t * (1.0F + 0x1p-12F); }
 
   [[gnu::always_inline]] bool look(const TriangleBlock& block) {
-    const float* const from = block.corner[0][0];
-    const Corners<4> corners{Points<4>::load(from, 4), Points<4>::load(from + 12, 4),
-                             Points<4>::load(from + 24, 4)};
     const MollerTrumbore<4> four =
-        moller_trumbore(corners, Points<4>::all(origin_), Points<4>::all(direction_));
-    four.distance.store(results_[0]);
-    four.u.store(results_[1]);
-    four.v.store(results_[2]);
-    four.size.store(results_[3]);
-    inside_ = four.inside.bits();
-    return inside_ != 0;
+        moller_trumbore(corners(block), Points<4>::all(origin_), Points<4>::all(direction_));
+    const unsigned inside = four.inside.bits();
+    keep(four.distance, four.u, four.v, four.size, inside);
+    return inside != 0;
+  }
+  [[gnu::always_inline]] static unsigned look_both(MollerTrumboreBlocks& a,
+                                                   const TriangleBlock& block_a,
+                                                   MollerTrumboreBlocks& b,
+                                                   const TriangleBlock& block_b) {
+    const MollerTrumbore<8> r =
+        moller_trumbore(beside(corners(block_a), corners(block_b)),
+                        beside(Points<4>::all(a.origin_), Points<4>::all(b.origin_)),
+                        beside(Points<4>::all(a.direction_), Points<4>::all(b.direction_)));
+    const unsigned inside = r.inside.bits();
+    a.keep(low_half(r.distance), low_half(r.u), low_half(r.v), low_half(r.size), inside & 0xFU);
+    b.keep(high_half(r.distance), high_half(r.u), high_half(r.v), high_half(r.size), inside >> 4U);
+    return inside;
   }
 
   [[gnu::always_inline]] bool judge(const TriangleBlock&, const std::uint32_t* ids) {
@@ -99,6 +109,21 @@ class MollerTrumboreBlocks {
 
  private:
   static constexpr float kLargestFloat = 0x1.fffffep+127F;
+
+  [[gnu::always_inline]] static Corners<4> corners(const TriangleBlock& block) {
+    const float* const from = block.corner[0][0];
+    return {Points<4>::load(from, 4), Points<4>::load(from + 12, 4), Points<4>::load(from + 24, 4)};
+  }
+
+  [[gnu::always_inline]] void keep(const Floats<4>& distance, const Floats<4>& u,
+                                   const Floats<4>& v, const Floats<4>& size, unsigned inside) {
+    distance.store(results_[0]);
+    u.store(results_[1]);
+    v.store(results_[2]);
+    size.store(results_[3]);
+    inside_ = inside;
+  }
+
   struct Vector {
     float x, y, z;
   };
@@ -132,12 +157,22 @@ class DoubtingBlocks {
     const WatertightWeights<4> w =
         watertight_weights(turned(block), Points<4>::all(origin_), Floats<4>::all(turned_.shear_x),
                            Floats<4>::all(turned_.shear_y));
-    w.a.store(weights_[0]);
-    w.b.store(weights_[1]);
-    w.c.store(weights_[2]);
-    candidates_ = w.candidates.bits();
-    sure_ = w.sure.bits();
-    return candidates_ != 0;
+    const unsigned candidates = w.candidates.bits();
+    keep(w.a, w.b, w.c, candidates, w.sure.bits());
+    return candidates != 0;
+  }
+  [[gnu::always_inline]] static unsigned look_both(DoubtingBlocks& a, const TriangleBlock& block_a,
+                                                   DoubtingBlocks& b,
+                                                   const TriangleBlock& block_b) {
+    const WatertightWeights<8> w = watertight_weights(
+        beside(a.turned(block_a), b.turned(block_b)),
+        beside(Points<4>::all(a.origin_), Points<4>::all(b.origin_)),
+        beside(Floats<4>::all(a.turned_.shear_x), Floats<4>::all(b.turned_.shear_x)),
+        beside(Floats<4>::all(a.turned_.shear_y), Floats<4>::all(b.turned_.shear_y)));
+    const unsigned candidates = w.candidates.bits(), sure = w.sure.bits();
+    a.keep(low_half(w.a), low_half(w.b), low_half(w.c), candidates & 0xFU, sure & 0xFU);
+    b.keep(high_half(w.a), high_half(w.b), high_half(w.c), candidates >> 4U, sure >> 4U);
+    return candidates;
   }
 
   [[gnu::always_inline]] bool judge(const TriangleBlock& block, const std::uint32_t* ids) {
@@ -213,6 +248,15 @@ class DoubtingBlocks {
   }
   [[gnu::always_inline]] Corners<4> turned(const TriangleBlock& block) const {
     return {turned(block.corner[0]), turned(block.corner[1]), turned(block.corner[2])};
+  }
+
+  [[gnu::always_inline]] void keep(const Floats<4>& a, const Floats<4>& b, const Floats<4>& c,
+                                   unsigned candidates, unsigned sure) {
+    a.store(weights_[0]);
+    b.store(weights_[1]);
+    c.store(weights_[2]);
+    candidates_ = candidates;
+    sure_ = sure;
   }
 
   /// Holds a triangle in doubt against the best hit.

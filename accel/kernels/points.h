@@ -35,10 +35,17 @@ struct Points {
   }
 };
 
+[[gnu::always_inline]] inline Points<8> beside(const Points<4>& low, const Points<4>& high) {
+  return {beside(low.x, high.x), beside(low.y, high.y), beside(low.z, high.z)};
+}
+
 /// The corners of N triangles, or N times those of one.
 template <int N>
 struct Corners {
   Points<N> v0, v1, v2;
 };
+[[gnu::always_inline]] inline Corners<8> beside(const Corners<4>& low, const Corners<4>& high) {
+  return {beside(low.v0, high.v0), beside(low.v1, high.v1), beside(low.v2, high.v2)};
+}
 
 }  // namespace encore::accel::ENCORE_ISA

@@ -61,51 +61,84 @@ class Stream {
       t.places[0] = WideChild::kNoChild;
       start(&t);
     }
-    while ((length_[kNode] | length_[kLeaf]) != 0) round();
+    while ((length_.nodes | length_.leaves) != 0) round();
   }
 
  private:
+  /// Where rays stand: at nodes, at leaves or at their end.
   enum List : std::uint32_t { kNode, kLeaf, kEnd };
+  struct Lengths {
+    std::size_t nodes, leaves, ends;
+  };
+
+#if defined(__AVX2__)
+  static constexpr bool kTwoAtOnce = true;  ///< two blocks of four fill a register
+#else
+  static constexpr bool kTwoAtOnce = false;
+#endif
 
   /// Nodes that together are no larger than this are close at hand, so that asking for them ahead
   /// costs more than waiting for them.
   static constexpr std::size_t kCachedNodes = (std::size_t{2} << 20) / sizeof(gpu::WideNode);
 
   [[gnu::always_inline]] void round() {
-    const std::uint32_t nodes = length_[kNode];
-    const std::uint32_t leaves = length_[kLeaf];
-    if (tree_.node_count > kCachedNodes) {
-      for (std::uint32_t i = 0; i < leaves; ++i) {
-        prefetch(tree_.blocks + WideChild::first_block(list_[kLeaf][i]->child));
+    const WideView tree = tree_;  // which no store can change, as the compiler sees
+    const std::size_t nodes = length_.nodes, leaves = length_.leaves;
+    if (tree.node_count > kCachedNodes) {
+      for (std::size_t i = 0; i < leaves; ++i) {
+        prefetch(tree.blocks + WideChild::first_block(list_[kLeaf][i]->child));
       }
-      for (std::uint32_t i = 0; i < nodes; ++i) prefetch(tree_.nodes + list_[kNode][i]->child);
+      for (std::size_t i = 0; i < nodes; ++i) prefetch(tree.nodes + list_[kNode][i]->child);
     }
-    for (std::uint32_t i = 0; i < nodes; ++i) visit(*list_[kNode][i]);
-    std::uint32_t candidates = 0;
-    for (std::uint32_t i = 0; i < leaves; ++i) {
-      Traveller* const t = list_[kLeaf][i];
-      candidate_[candidates] = t;
-      candidates += t->blocks.look(tree_.blocks[WideChild::first_block(t->child)]) ? 1 : 0;
-      // The leaf's other blocks wait like a node that the ray is in already.
-      t->enters[t->top] = -__builtin_inff();
-      t->places[t->top] = WideChild::next_block(t->child);
-      t->top += WideChild::blocks(t->child) > 1 ? 1 : 0;
-    }
-    for (std::uint32_t i = 0; i < candidates; ++i) judge(*candidate_[i]);
-    length_[kNode] = length_[kLeaf] = length_[kEnd] = 0;
+    for (std::size_t i = 0; i < nodes; ++i) visit(tree, *list_[kNode][i]);
+    const std::size_t candidates = look_at_leaves(tree, leaves);
+    for (std::size_t i = 0; i < candidates; ++i) judge(*candidate_[i]);
+    Lengths now{0, 0, 0};
     // No ray has left its list before what stood in its place was read.
-    for (std::uint32_t i = 0; i < leaves; ++i) candidate_[i] = list_[kLeaf][i];
-    for (std::uint32_t i = 0; i < nodes; ++i) go_on(list_[kNode][i]);
-    for (std::uint32_t i = 0; i < leaves; ++i) go_on(candidate_[i]);
-    for (std::uint32_t i = 0; i < length_[kEnd]; ++i) {
+    for (std::size_t i = 0; i < leaves; ++i) candidate_[i] = list_[kLeaf][i];
+    for (std::size_t i = 0; i < nodes; ++i) go_on(list_[kNode][i], now);
+    for (std::size_t i = 0; i < leaves; ++i) go_on(candidate_[i], now);
+    length_ = now;
+    for (std::size_t i = 0; i < now.ends; ++i) {
       Traveller* const t = list_[kEnd][i];
       answer(t->ray, t->blocks.hit);
       start(t);
     }
   }
 
-  [[gnu::always_inline]] void visit(Traveller& t) {
-    const gpu::WideNode& node = tree_.nodes[t.child];
+  [[gnu::always_inline]] static const TriangleBlock& block(const WideView& tree,
+                                                           const Traveller& t) {
+    return tree.blocks[WideChild::first_block(t.child)];
+  }
+
+  /// Puts the rays for whom a block may hold a hit into candidate_, and returns how many they are.
+  [[gnu::always_inline]] std::size_t look_at_leaves(const WideView& tree, std::size_t leaves) {
+    std::size_t candidates = 0, i = 0;
+    const auto looked = [&](Traveller * t, bool candidate) __attribute__((always_inline)) {
+      candidate_[candidates] = t;
+      candidates += candidate ? 1 : 0;
+      // The leaf's other blocks wait like a node that the ray is in already.
+      t->enters[t->top] = -__builtin_inff();
+      t->places[t->top] = WideChild::next_block(t->child);
+      t->top += WideChild::blocks(t->child) > 1 ? 1 : 0;
+    };
+    for (; kTwoAtOnce && i + 1 < leaves; i += 2) {
+      Traveller* const a = list_[kLeaf][i];
+      Traveller* const b = list_[kLeaf][i + 1];
+      const unsigned both =
+          Blocks::look_both(a->blocks, block(tree, *a), b->blocks, block(tree, *b));
+      looked(a, (both & 0xFU) != 0);
+      looked(b, (both >> 4U) != 0);
+    }
+    for (; i < leaves; ++i) {
+      Traveller* const t = list_[kLeaf][i];
+      looked(t, t->blocks.look(block(tree, *t)));
+    }
+    return candidates;
+  }
+
+  [[gnu::always_inline]] static void visit(const WideView& tree, Traveller& t) {
+    const gpu::WideNode& node = tree.nodes[t.child];
     Floats<8> enter;
     const Mask<8> met = t.slabs.test(node, enter);
     if constexpr (AnyHit) {
@@ -126,15 +159,22 @@ class Stream {
   }
 
   /// To the nearest node that waits and is not behind the best hit.
-  [[gnu::always_inline]] void go_on(Traveller* t) {
+  [[gnu::always_inline]] void go_on(Traveller* t, Lengths& now) {
     std::uint32_t top = t->top;
     do --top;
     while (!AnyHit && t->enters[top] > t->slabs.limit());
     t->top = top;
-    t->child = t->places[top];
-    const std::uint32_t list =
-        t->child == WideChild::kNoChild ? std::uint32_t{kEnd} : t->child >> 31U;
-    list_[list][length_[list]++] = t;
+    const std::uint32_t child = t->places[top];
+    t->child = child;
+    // Into all three lists, of which one keeps it: which one cannot be foreseen.
+    const std::size_t outer = child >> 31U;
+    const std::size_t end = child == WideChild::kNoChild ? 1 : 0;
+    list_[kNode][now.nodes] = t;
+    list_[kLeaf][now.leaves] = t;
+    list_[kEnd][now.ends] = t;
+    now.nodes += 1 - outer;
+    now.leaves += outer - end;
+    now.ends += end;
   }
 
   /// Gives the next ray to a place that has none.
@@ -151,7 +191,7 @@ class Stream {
       t->ray = static_cast<std::uint32_t>(i);
       t->top = 1;
       t->child = 0;
-      list_[kNode][length_[kNode]++] = t;
+      list_[kNode][length_.nodes++] = t;
       return;
     }
   }
@@ -170,7 +210,7 @@ class Stream {
   std::size_t count_;
   std::size_t next_ = 0;
   Answer* answers_;
-  std::uint32_t length_[3] = {0, 0, 0};
+  Lengths length_{0, 0, 0};
   Traveller* list_[3][kTogether];
   Traveller* candidate_[kTogether];
   Traveller travellers_[kTogether];

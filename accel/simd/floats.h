@@ -374,6 +374,31 @@ struct Floats {
 };
 #endif
 
+// ---------------------------------------------------------------------------------------- halves
+
+/// Eight of twice four, and the four that are its lower or its upper half.
+#if defined(__AVX2__)
+inline Floats<8> beside(Floats<4> low, Floats<4> high) {
+  return {_mm256_insertf128_ps(_mm256_castps128_ps256(low.v), high.v, 1)};
+}
+inline Floats<4> low_half(Floats<8> x) {
+  return {_mm256_castps256_ps128(x.v)};
+}
+inline Floats<4> high_half(Floats<8> x) {
+  return {_mm256_extractf128_ps(x.v, 1)};
+}
+#else
+inline Floats<8> beside(const Floats<4>& low, const Floats<4>& high) {
+  return {low, high};
+}
+inline Floats<4> low_half(const Floats<8>& x) {
+  return x.low;
+}
+inline Floats<4> high_half(const Floats<8>& x) {
+  return x.high;
+}
+#endif
+
 #undef ENCORE_FLOATS_ARITHMETIC
 #undef ENCORE_FLOATS_COMPARISONS
 #undef ENCORE_SAME_BITS
