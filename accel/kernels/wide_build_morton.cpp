@@ -66,12 +66,19 @@ class MortonSubtree {
   WideSubtree& subtree_;
 };
 
+/// Asks for keys, which are looked at here and there, each look telling where the next one is.
+void fetch(const std::uint64_t* keys, std::uint32_t begin, std::uint32_t end) {
+  constexpr std::uint32_t kLine = 64 / sizeof(std::uint64_t);
+  for (std::uint32_t i = begin; i < end; i += kLine) __builtin_prefetch(keys + i);
+}
+
 }  // namespace
 
 void build_morton_subtree(const WideBuildArrays& arrays, WideSubtree& subtree) {
   subtree.nodes = subtree.leaves = subtree.blocks = subtree.references = 0;
   subtree.deepest = subtree.depth;
   const WideRange& range = subtree.range;
+  fetch(arrays.keys[range.array], range.begin, range.end);
   MortonSubtree(arrays, subtree)
       .build(key_range(arrays.keys, range.array, range.begin, range.end), subtree.depth);
 }
