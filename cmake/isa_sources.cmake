@@ -1,6 +1,6 @@
 # encore_isa_sources(<target> <sources>): compiles the sources once an instruction set and adds all
 # of it to the target. Each time ENCORE_ISA is the name of the namespace that everything in them
-# belongs in (accel/simd/floats.h); processors other than x86 get the portable one alone.
+# belongs in (accel/simd/intrinsics.h); processors other than x86 get the portable one alone.
 #
 # Nothing else may be compiled with such options: a function that several files share would be
 # linked from any of them (tests/architecture looks at the object files).

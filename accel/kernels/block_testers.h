@@ -17,9 +17,8 @@ namespace encore::accel::ENCORE_ISA {
 //
 //   start(ray)         nothing hit so far
 //   look(block)        whether anything of the block may be hit
-//   look_both(a, block, b, block)   the same for two rays side by side: of what it returns a's are
-//   the last
-//                      four bits, b's the four before
+//   look_both(...)     the same for two rays side by side, each with its block: of what it returns
+//                      the lowest four bits are the first one's, the next four the second one's
 //   judge(block, ids)  after a look() that says so: true if the best hit changed
 //   limit()            how far to go on: no less than the true distance of the best hit
 //   hit                the best hit; if kNeedsFinish only its triangle, the rest is decide_hit()'s
@@ -72,6 +71,7 @@ class MollerTrumboreBlocks {
     keep(four.distance, four.u, four.v, four.size, inside);
     return inside != 0;
   }
+
   [[gnu::always_inline]] static unsigned look_both(MollerTrumboreBlocks& a,
                                                    const TriangleBlock& block_a,
                                                    MollerTrumboreBlocks& b,
@@ -161,6 +161,7 @@ class DoubtingBlocks {
     keep(w.a, w.b, w.c, candidates, w.sure.bits());
     return candidates != 0;
   }
+
   [[gnu::always_inline]] static unsigned look_both(DoubtingBlocks& a, const TriangleBlock& block_a,
                                                    DoubtingBlocks& b,
                                                    const TriangleBlock& block_b) {

@@ -82,7 +82,7 @@ class Stream {
   static constexpr std::size_t kCachedNodes = (std::size_t{2} << 20) / sizeof(gpu::WideNode);
 
   [[gnu::always_inline]] void round() {
-    const WideView tree = tree_;  // which no store can change, as the compiler sees
+    const WideView tree = tree_;  // so that no store makes the compiler read it again
     const std::size_t nodes = length_.nodes, leaves = length_.leaves;
     if (tree.node_count > kCachedNodes) {
       for (std::size_t i = 0; i < leaves; ++i) {

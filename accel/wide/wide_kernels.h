@@ -13,9 +13,10 @@
 namespace encore::accel {
 
 /// The inner loops of bvh-sah for one instruction set. Plain pointers and no library calls: what
-/// lies behind them is compiled with instructions that nothing else may use (accel/simd/floats.h).
-/// `triangles` are the scene's, which doubts in double precision are settled with. All instruction
-/// sets give the same hits, bit for bit, and so do rays alone and in packets.
+/// lies behind them is compiled with instructions that nothing else may use
+/// (accel/simd/intrinsics.h). `triangles` are the scene's, which doubts in double precision are
+/// settled with. All instruction sets give the same hits, bit for bit, and so do rays alone and in
+/// packets.
 struct WideSingleKernels {
   using Intersect = void (*)(const WideView& tree, const scene::Triangle* triangles,
                              const scene::Ray* rays, std::size_t count, scene::Hit* hits);
