@@ -1,5 +1,6 @@
 #pragma once
 
+#include "accel/build_place.h"
 #include "accel/settings.h"
 #include "renderer/heatmap.h"
 #include "scene/ray_settings.h"
@@ -28,6 +29,8 @@ struct PaneSettings {
   PaneContent content = PaneContent::picture;
   accel::StructureSpec structure = accel::default_spec(accel::StructureKind::bvh_median);
   accel::Policy policy = accel::Policy::rebuild;
+  /// Where a structure for PaneDevice::gpu is built frame after frame.
+  accel::BuildPlace build_on = accel::BuildPlace::automatic;
   SizeChoice size = SizeChoice::window;
   int custom_width = 640;  ///< of SizeChoice::custom
   int custom_height = 480;

@@ -55,6 +55,9 @@ void pane_changes(const Settings& before, const Settings& after, std::size_t pan
   if (a.policy != b.policy) {
     names.push_back(fmt::format("policy of {}: {}", name, to_string(b.policy)));
   }
+  if (a.build_on != b.build_on) {
+    names.push_back(fmt::format("structure of {} built on: {}", name, to_string(b.build_on)));
+  }
   if (!same_size(a, b)) names.push_back(fmt::format("size of {}: {}", name, size_text(b)));
   if (a.threads != b.threads) {
     names.push_back(b.threads == 0 ? fmt::format("threads of {}: all", name)

@@ -255,6 +255,7 @@ PaneRequest Engine::request_of(std::size_t pane, const ui::UiState& state) const
   request.device = device_of(settings.device);
   request.structure = settings.structure;
   request.policy = settings.policy;
+  request.build_on = settings.build_on;
   if (settings.policy == accel::Policy::automatic) request.phase_watts = policy_watts();
   request.threads = settings.threads > 0 ? settings.threads : setup_.threads;
   request.rays = state.settings.rays;

@@ -68,11 +68,13 @@ WorkloadSpec workload_of(const PaneRequest& request, bool forced, bool software)
   return spec;
 }
 
-energy::FrameRow row_of(const PaneRequest& request, bool software, const energy::PhaseLog& log,
-                        std::size_t triangles) {
+energy::FrameRow row_of(const PaneRequest& request, accel::BuildPlace built_on,
+                        const energy::PhaseLog& log, std::size_t triangles) {
+  WorkloadSpec spec = workload_of(request, false, false);
+  spec.build_on = built_on;
   energy::FrameRow row;
   row.time = log.spans().front().start;
-  row.configuration = configuration_of(workload_of(request, false, software), triangles);
+  row.configuration = configuration_of(spec, triangles);
   row.operations = 1;
   for (const energy::PhaseSpan& span : log.spans()) {
     std::optional<energy::Seconds>& sum = row.phases[span.phase];

@@ -26,8 +26,9 @@ void add_rays(ui::FrameFigures& figures, const std::optional<renderer::RayFigure
 /// a scene and a device.
 WorkloadSpec workload_of(const PaneRequest& request, bool forced, bool software);
 
-/// A frame of explore mode as a row of frames.csv; the log has at least one mark.
-energy::FrameRow row_of(const PaneRequest& request, bool software, const energy::PhaseLog& log,
-                        std::size_t triangles);
+/// A frame of explore mode as a row of frames.csv; the log has at least one mark. `built_on`: where
+/// the structure of this very frame was built, whatever the request asks for.
+energy::FrameRow row_of(const PaneRequest& request, accel::BuildPlace built_on,
+                        const energy::PhaseLog& log, std::size_t triangles);
 
 }  // namespace encore::app

@@ -282,8 +282,9 @@ void PaneWorker::take_frame(const PaneRequest& request) {
   }
   work.frame = figures;
   if (setup_.on_frame && !work.log.spans().empty()) {
-    setup_.on_frame(row_of(request, work.tracer.device_is_software(), work.log,
-                           work.tracer.triangles().triangles.size()));
+    const auto built_on =
+        work.tracer.built_on_device() ? accel::BuildPlace::device : accel::BuildPlace::cpu;
+    setup_.on_frame(row_of(request, built_on, work.log, work.tracer.triangles().triangles.size()));
   }
 }
 

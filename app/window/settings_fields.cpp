@@ -87,6 +87,8 @@ void visit_pane(Archive& archive, ui::PaneSettings& pane) {
   archive.word("content", pane.content,
                Words<ui::PaneContent>{ui::to_string, ui::parse_pane_content});
   archive.word("policy", pane.policy, Words<accel::Policy>{accel::to_string, accel::parse_policy});
+  archive.word("build_on", pane.build_on,
+               Words<accel::BuildPlace>{accel::to_string, accel::parse_build_place});
   archive.word("size", pane.size, Words<ui::SizeChoice>{ui::to_string, ui::parse_size_choice});
   archive.integer("custom_width", pane.custom_width, {1, 16384});
   archive.integer("custom_height", pane.custom_height, {1, 16384});

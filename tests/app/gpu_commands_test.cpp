@@ -1,8 +1,7 @@
 // Drawing and verifying on the graphics device, as a user meets it.
-#include "renderer/gl/context.h"
-#include "renderer/gl/error.h"
 #include "run_program.h"
 #include "tests/support/files.h"
+#include "tests/support/gl_devices.h"
 #include "tests/support/messages.h"
 
 #include <gtest/gtest.h>
@@ -20,12 +19,8 @@ using test::contains;
 class GpuCommands : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string problem;
-    for (const renderer::gl::DeviceListing& device : renderer::gl::list_devices(&problem)) {
-      if (device.usable) return;
-      problem += " " + device.name + ": " + device.problem;
-    }
-    GTEST_SKIP() << "no OpenGL device to test with:" << problem;
+    const std::string why = test::why_no_gl_device();
+    if (!why.empty()) GTEST_SKIP() << why;
   }
   test::TemporaryFolder folder_;
 };

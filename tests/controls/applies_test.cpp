@@ -86,6 +86,24 @@ TEST_F(Column, DevicesHaveWhatIsTheirs) {
   EXPECT_FALSE(shown("settings.overlay"));
 }
 
+TEST_F(Column, WhereTreesAreBuiltIsAskedWhereTheDeviceCan) {
+  right().structure = accel::default_spec(StructureKind::bvh_sah);
+  auto& preset = std::get<accel::BvhSettings>(right().structure.settings).preset;
+  preset = accel::BuildPreset::fast;
+  EXPECT_FALSE(shown("settings.right.build_on")) << "the scene stands still";
+  put_scene("toys", 11'141, true);
+  choose("settings.right.build_on", "device");
+  EXPECT_EQ(right().build_on, accel::BuildPlace::device);
+  right().policy = Policy::refit;
+  EXPECT_FALSE(shown("settings.right.build_on"));
+  right().policy = Policy::rebuild;
+  preset = accel::BuildPreset::balanced;
+  EXPECT_FALSE(shown("settings.right.build_on"));
+  preset = accel::BuildPreset::fast;
+  right().device = PaneDevice::cpu;
+  EXPECT_FALSE(shown("settings.right.build_on"));
+}
+
 TEST_F(Column, BruteForceIsForTinyScenes) {
   click("settings.left.kind");
   EXPECT_TRUE(find("settings.left.kind.kd-sah").has_value());

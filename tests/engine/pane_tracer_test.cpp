@@ -2,8 +2,8 @@
 #include "app/window/pane_tracer.h"
 
 #include "energy/clock.h"
-#include "renderer/gl/context.h"
 #include "scene/sample_scenes.h"
+#include "tests/support/gl_devices.h"
 
 #include <gtest/gtest.h>
 
@@ -140,10 +140,8 @@ TEST_F(PaneTracerTest, ForcedFramesBuildOrUpdateThoughNothingMoves) {
 class BuildingDevice : public PaneTracerTest {
  protected:
   void SetUp() override {
-    for (const renderer::gl::DeviceListing& device : renderer::gl::list_devices(nullptr)) {
-      if (device.usable) return;
-    }
-    GTEST_SKIP() << "no OpenGL device to test with";
+    const std::string why = test::why_no_gl_device();
+    if (!why.empty()) GTEST_SKIP() << why;
   }
   static PaneRequest fast_request() {
     PaneRequest request = request_for("wave", Device::gpu);

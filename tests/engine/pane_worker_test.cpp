@@ -4,10 +4,13 @@
 #include "app/window/measure_scheduler.h"
 #include "renderer/image_diff.h"
 #include "scene/sample_scenes.h"
+#include "tests/support/gl_devices.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <mutex>
+#include <string>
 #include <thread>
 
 namespace encore::app {
@@ -36,7 +39,20 @@ class PaneWorkerTest : public testing::Test {
   std::unique_ptr<PaneWorker> make_worker() {
     return std::make_unique<PaneWorker>(
         PaneWorker::Setup{std::nullopt, &monitor_, &attribution_, [this] { ++changes_; },
-                          [this](const energy::FrameRow&) { ++frames_; }});
+                          [this](const energy::FrameRow& row) { take(row); }});
+  }
+  void take(const energy::FrameRow& row) {
+    for (const energy::KeyValue& cell : row.configuration) {
+      if (cell.key != "build_on") continue;
+      const std::lock_guard lock(mutex_);
+      built_on_ = cell.value;
+    }
+    ++frames_;
+  }
+  /// What the last frame's row says of where its structure was built.
+  std::string built_on() {
+    const std::lock_guard lock(mutex_);
+    return built_on_;
   }
   static PaneRequest request_for(const char* scene) {
     PaneRequest request;
@@ -55,6 +71,8 @@ class PaneWorkerTest : public testing::Test {
 
   std::atomic<int> changes_{0};
   std::atomic<int> frames_{0};
+  std::mutex mutex_;
+  std::string built_on_;
   PowerMonitor monitor_;
   LiveAttribution attribution_{monitor_};
 };
@@ -129,6 +147,31 @@ TEST_F(PaneWorkerTest, HeatmapsNodesProbesAndThe3dViewComeWhenAskedFor) {
   EXPECT_EQ(output->hover->pixel.triangle, output->pick->pixel.triangle);
   EXPECT_FALSE(output->selected_triangles.empty());
   EXPECT_EQ(output->selected_triangles.size(), output->selected_shapes.size());
+}
+
+TEST_F(PaneWorkerTest, FramesSayWhereTheirOwnTreeWasBuilt) {
+  const std::string why = test::why_no_gl_device();
+  if (!why.empty()) GTEST_SKIP() << why;
+  const auto worker = make_worker();
+  PaneRequest request = request_for("wave");
+  request.device = Device::gpu;
+  request.structure = accel::default_spec(accel::StructureKind::bvh_sah);
+  std::get<accel::BvhSettings>(request.structure.settings).preset = accel::BuildPreset::fast;
+  request.build_on = accel::BuildPlace::device;
+  const auto draw = [&] {
+    const int before = frames_;
+    worker->ask(request);
+    return eventually([&] { return frames_ > before && whole(*worker); });
+  };
+  ASSERT_TRUE(draw());
+  EXPECT_EQ(built_on(), "cpu") << "the first is the CPU's";
+  request.time_s = 0.3;
+  ASSERT_TRUE(draw());
+  EXPECT_EQ(built_on(), "device");
+  request.nodes = true;
+  request.time_s = 0.6;
+  ASSERT_TRUE(draw());
+  EXPECT_EQ(built_on(), "cpu") << "somebody looks at the nodes";
 }
 
 TEST_F(PaneWorkerTest, ADifferenceOfEqualPicturesIsNone) {

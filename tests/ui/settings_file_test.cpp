@@ -26,6 +26,7 @@ KeptState unusual() {
   left.structure.settings = accel::KdTreeSettings{
       9.5F, 1.7F, accel::KdTreeSettings::DepthLogarithm::base2, 7, 6, 5, 2.0F, 44.0F, 0.25F};
   left.policy = accel::Policy::refit;
+  left.build_on = accel::BuildPlace::device;
   left.size = ui::SizeChoice::custom;
   left.custom_width = 333;
   left.custom_height = 222;

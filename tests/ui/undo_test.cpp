@@ -30,6 +30,9 @@ TEST(ChangeName, NamesWhatChanged) {
   after.panes[0].structure.intersection = accel::IntersectionMode::watertight;
   EXPECT_EQ(ui::change_name(before, after), "intersection of pane CPU: watertight");
   after = before;
+  after.panes[1].build_on = accel::BuildPlace::cpu;
+  EXPECT_EQ(ui::change_name(before, after), "structure of pane GPU built on: cpu");
+  after = before;
   after.animation.playing = true;
   EXPECT_EQ(ui::change_name(before, after), "");
 }

@@ -90,6 +90,14 @@ constexpr std::array<ValueChoice<accel::RayGrouping>, 2> kGroupings{{
     {accel::RayGrouping::single, "single", "one ray after the other, as in the thesis"},
 }};
 
+constexpr std::array<ValueChoice<accel::BuildPlace>, 3> kBuildPlaces{{
+    {accel::BuildPlace::automatic, "auto",
+     "on the graphics device, unless that is a renderer in software"},
+    {accel::BuildPlace::cpu, "cpu", "on the CPU; the graphics device is sent a copy of the tree"},
+    {accel::BuildPlace::device, "device",
+     "on the graphics device, which is sent the triangles alone"},
+}};
+
 constexpr std::array<ValueChoice<SizeChoice>, 6> kSizes{{
     {SizeChoice::window, "window", "as many pixels as the pane has"},
     {SizeChoice::square_256, "256", "256 × 256, the thesis' low resolution"},
@@ -171,6 +179,14 @@ void draw_structure(const std::string& prefix, const ColumnContext& context, Pan
   draw_kind(prefix, context.view, pane);
   const bool brute = pane.structure.kind == StructureKind::brute;
   if (moves && !brute) draw_policy(prefix, pane);
+  if (moves && pane.device == PaneDevice::gpu &&
+      accel::device_can_build(pane.structure, pane.policy)) {
+    value_choice_row({prefix + ".build_on", "Built on",
+                      "Where the tree of each frame is built. Whoever looks at its nodes (the "
+                      "right column, the overlay, a picked ray) gets one of the CPU's meanwhile; "
+                      "measure mode keeps to what is set here."},
+                     pane.build_on, kBuildPlaces);
+  }
   draw_structure_parameters(prefix.c_str(), pane, moves);
   value_choice_row({prefix + ".intersection", "Intersection",
                     "By which arithmetic a ray is held against a triangle; the same on every "
