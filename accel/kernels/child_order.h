@@ -99,10 +99,10 @@ struct PackingTable {
 inline constexpr PackingTable kPacking;
 #endif
 
-/// The same in no order: what is met first does not matter to whoever takes any hit.
-[[gnu::always_inline]] inline std::uint32_t push_unordered(const Mask<8>& met,
-                                                           const std::uint32_t* children,
-                                                           std::uint32_t* places) {
+/// The same in the node's own order, for whoever takes any hit (accel/wide/wide_child_order.h).
+[[gnu::always_inline]] inline std::uint32_t push_as_they_are(const Mask<8>& met,
+                                                             const std::uint32_t* children,
+                                                             std::uint32_t* places) {
   const unsigned bits = met.bits();
 #if defined(ENCORE_AVX512)
   _mm256_storeu_si256(

@@ -142,7 +142,7 @@ class Stream {
     Floats<8> enter;
     const Mask<8> met = t.slabs.test(node, enter);
     if constexpr (AnyHit) {
-      t.top += push_unordered(met, node.child, t.places + t.top);
+      t.top += push_as_they_are(met, node.child, t.places + t.top);
     } else {
       t.top += push_in_order(enter, met, node.child, t.enters + t.top, t.places + t.top);
     }

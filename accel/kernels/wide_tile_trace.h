@@ -56,7 +56,8 @@ class PacketTrace {
     unsigned groups;   ///< that may meet it; only if the rays have no origin in common
   };
 
-  /// Lets the node's children wait, the nearest on top.
+  /// Lets the node's children wait: the nearest on top, or for any hit the last one
+  /// (order_wide_children()).
   [[gnu::always_inline]] void visit(std::uint32_t index) {
     const gpu::WideNode& node = scene_.tree.nodes[index];
     Floats<8> enters;
@@ -76,7 +77,9 @@ class PacketTrace {
       }
       prefetch(node.child[lane]);
       Waiting* place = waiting_ + count_++;
-      for (; place > from && place[-1].enter < enter[lane]; --place) *place = place[-1];
+      for (; !kAnyHit && place > from && place[-1].enter < enter[lane]; --place) {
+        *place = place[-1];
+      }
       *place = {enter[lane], node.child[lane], node.bounds + lane, groups};
     }
   }

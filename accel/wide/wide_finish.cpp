@@ -1,6 +1,7 @@
 // Subtrees and what lies above them, put into their places.
 #include "accel/large_pages.h"
 #include "accel/wide/wide_build_memory.h"
+#include "accel/wide/wide_child_order.h"
 
 #include <algorithm>
 #include <iterator>
@@ -33,6 +34,7 @@ class Finish {
     for_wide_pieces(run_, memory_.subtrees.size(), 0.99, [&](std::size_t i) { emit_subtree(i); });
     // Lower nodes have higher numbers.
     for (std::size_t i = memory_.top.size(); i-- > 0;) emit_top(i);
+    order_wide_children(tree_);
     fit_root();
   }
 

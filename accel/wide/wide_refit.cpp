@@ -2,6 +2,7 @@
 #include "accel/wide/wide_build_kernels.h"
 #include "accel/wide/wide_node.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -25,13 +26,12 @@ void cut(const WideTree& tree, Piece piece, std::vector<std::size_t>& above,
     return;
   }
   above.push_back(piece.begin);
-  std::size_t inner[WideTree::kWidth + 1];
-  std::size_t count = 0;
+  std::vector<std::size_t> ends{piece.end};
   for (const std::uint32_t child : tree.nodes[piece.begin].child) {
-    if (!WideChild::is_leaf(child)) inner[count++] = child;  // kNoChild has the leaf's bit, too
+    if (!WideChild::is_leaf(child)) ends.push_back(child);  // kNoChild has the leaf's bit, too
   }
-  inner[count] = piece.end;
-  for (std::size_t i = 0; i < count; ++i) cut(tree, {inner[i], inner[i + 1]}, above, pieces);
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 1; i < ends.size(); ++i) cut(tree, {ends[i - 1], ends[i]}, above, pieces);
 }
 
 }  // namespace

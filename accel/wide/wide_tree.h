@@ -48,7 +48,8 @@ struct WideChild {
 
 /// A hierarchy of up to eight boxes a node (Wald, Benthin and Boulos 2008; Ernst and Greiner 2008),
 /// as bvh-sah builds and traces it. Node 0 is the root, whose own box is `bounds`; children come
-/// after their parent, and the nodes below any node lie together: [node's first descendant, last].
+/// after their parent, and the nodes below any node lie together: [node's first descendant, last];
+/// not always in the order of the children (wide_child_order.h).
 /// A tree over at least one triangle has a root node, even if that has a single child.
 ///
 /// Leaf slots: lane l of block b holds triangle ids[4 b + l]. A triangle may be in several leaves

@@ -89,6 +89,33 @@ TEST(WideBuild, ThreadsAndInstructionSetsMakeNoDifference) {
   }
 }
 
+/// Nodes of the root's level and the two below it whose children are not in the order of
+/// order_wide_children().
+std::size_t out_of_order(const WideTree& tree, std::uint32_t index, std::uint32_t depth) {
+  const gpu::WideNode& node = tree.nodes[index];
+  std::size_t wrong = 0;
+  for (std::uint32_t k = 0; k < WideTree::kWidth && node.child[k] != WideChild::kNoChild; ++k) {
+    const bool leaf = WideChild::is_leaf(node.child[k]);
+    if (!leaf && depth < 2) wrong += out_of_order(tree, node.child[k], depth + 1);
+    if (k == 0) continue;
+    const bool leaf_before = WideChild::is_leaf(node.child[k - 1]);
+    const double area = child_bounds(node, k).area();
+    const double area_before = child_bounds(node, k - 1).area();
+    const bool fine = leaf == leaf_before ? area_before <= area : leaf;
+    wrong += fine ? 0 : 1;
+  }
+  return wrong;
+}
+
+TEST(WideBuild, RaysThatTakeAnyHitMeetWhatHidesMuchFirst) {
+  for (const BuildPreset preset : kPresets) {
+    for (const Case& scene : large_cases()) {
+      SCOPED_TRACE(name_of(preset, scene.name));
+      EXPECT_EQ(out_of_order(BuiltTree(scene.triangles, preset).tree, 0, 0), 0U);
+    }
+  }
+}
+
 /// How many leaves have so many blocks.
 std::array<std::size_t, WideChild::kMostLeafBlocks + 1> leaves_by_blocks(const WideTree& tree) {
   std::array<std::size_t, WideChild::kMostLeafBlocks + 1> leaves{};

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace encore::accel::test {
@@ -91,6 +92,7 @@ class TreeCheck {
     }
     const gpu::WideNode& node = tree_.nodes[index];
     bool empty_before = false;
+    std::vector<std::pair<std::uint32_t, scene::Bounds>> inner;
     for (std::uint32_t k = 0; k < WideTree::kWidth; ++k) {
       const scene::Bounds box = child_bounds(node, k);
       if (node.child[k] == WideChild::kNoChild) {
@@ -104,9 +106,13 @@ class TreeCheck {
         leaf(node.child[k], box);
         continue;
       }
-      EXPECT_EQ(node.child[k], end) << "subtrees lie one after the other";
-      if (node.child[k] <= index) return all;
-      loose_ += this->node(node.child[k], depth + 1, end) == box ? 0 : 1;
+      inner.emplace_back(node.child[k], box);
+    }
+    std::sort(inner.begin(), inner.end(), [](auto& a, auto& b) { return a.first < b.first; });
+    for (const auto& [child, box] : inner) {
+      EXPECT_EQ(child, end) << "subtrees lie one after the other";
+      if (child <= index) return all;
+      loose_ += this->node(child, depth + 1, end) == box ? 0 : 1;
     }
     return all;
   }
