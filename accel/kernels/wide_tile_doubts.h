@@ -1,5 +1,6 @@
 #pragma once
 
+#include "accel/kernels/exact_hit.h"
 #include "accel/kernels/watertight.h"
 #include "accel/kernels/wide_tile_frustum.h"
 #include "accel/kernels/wide_tile_triangles.h"
@@ -267,26 +268,57 @@ struct DoubtingPackets {
     } else {
       hit = without(hit, near);
     }
-    if constexpr (kAnyHit) {
-      select(hit, F::all(-__builtin_inff()), best).store(packet.t + first);
-    } else {
-      select(hit, t, best).store(packet.t + first);
+    take<kAnyHit>(hit, t, id, w, packet, first);
+    unsigned changed = hit.bits();
+    if (kPrecise && !kAnyHit && changed != 0) __builtin_prefetch(scene.triangles + id);
+    unsigned doubts = without(left, sure).bits();
+    if constexpr (!kAnyHit) {
+      const Mask<kLanes> ties = sure & near;
+      if (ties.bits() != 0) {
+        const Mask<kLanes> won = win_ties(scene, packet, first, id, ties, doubts);
+        changed |= won.bits();
+        take<false>(won, t, id, w, packet, first);
+      }
     }
+    for (; doubts != 0; doubts &= doubts - 1) {
+      const int ray = __builtin_ctz(doubts);
+      if (settle<kAnyHit>(scene, packet, first + ray, id)) changed |= 1U << ray;
+    }
+    return changed;
+  }
+
+  /// Makes a triangle the best hit of those rays of a group that `hit` it.
+  template <bool kAnyHit>
+  [[gnu::always_inline]] static void take(Mask<kLanes> hit, const Floats<kLanes>& t,
+                                          std::uint32_t id, const WatertightWeights<kLanes>& w,
+                                          RayPacket& packet, int first) {
+    using F = Floats<kLanes>;
+    const F new_t = kAnyHit ? F::all(-__builtin_inff()) : t;
+    select(hit, new_t, F::load(packet.t + first)).store(packet.t + first);
     select(hit, F::all_bits(id), F::load(packet.triangle + first)).store(packet.triangle + first);
     if constexpr (!kAnyHit && !kPrecise) {
       const F inverse = F::all(1.0F) / (w.a + w.b + w.c);
       select(hit, w.b * inverse, F::load(packet.u + first)).store(packet.u + first);
       select(hit, w.c * inverse, F::load(packet.v + first)).store(packet.v + first);
     }
-    unsigned changed = hit.bits();
-    if (kPrecise && !kAnyHit && changed != 0) __builtin_prefetch(scene.triangles + id);
-    unsigned doubts = without(left, sure).bits();
-    if constexpr (!kAnyHit) doubts |= (sure & near).bits();
-    for (; doubts != 0; doubts &= doubts - 1) {
-      const int ray = __builtin_ctz(doubts);
-      if (settle<kAnyHit>(scene, packet, first + ray, id)) changed |= 1U << ray;
+  }
+
+  /// Of rays that hit a triangle for certain, about as far away as their best hit: those of which
+  /// it is to become the best hit. Where that is not known they join the `doubts`.
+  [[gnu::noinline]] static Mask<kLanes> win_ties(const TraceScene& scene, const RayPacket& packet,
+                                                 int first, std::uint32_t id, Mask<kLanes> ties,
+                                                 unsigned& doubts) {
+    unsigned won = 0;
+    for (unsigned left = ties.bits(); left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(left);
+      const std::uint32_t now = packet.triangle[first + lane];
+      if (now == id) continue;
+      const Preferred preferred =
+          exactly_preferred(scene.rays[packet.place[first + lane]], scene.triangles, id, now);
+      if (preferred == Preferred::first) won |= 1U << lane;
+      if (preferred == Preferred::unknown) doubts |= 1U << lane;
     }
-    return changed;
+    return Mask<kLanes>::of_bits(won);
   }
 
   /// Holds a triangle in doubt against the best hit of one ray.
