@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 
 namespace encore::accel {
 
@@ -32,7 +33,7 @@ void order(gpu::WideNode& node, std::uint32_t count) {
   const gpu::WideNode before = node;
   for (std::uint32_t i = 0; i < count; ++i) {
     node.child[i] = before.child[children[i].lane];
-    for (std::uint32_t row = 0; row < 48; row += WideTree::kWidth) {
+    for (std::uint32_t row = 0; row < std::size(node.bounds); row += WideTree::kWidth) {
       node.bounds[row + i] = before.bounds[row + children[i].lane];
     }
   }
