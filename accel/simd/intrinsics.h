@@ -17,6 +17,6 @@
 #error "only for files that are compiled once an instruction set (encore_isa_sources in CMake)"
 #endif
 
-/// Everything that is compiled once an instruction set lies in the namespace
-/// encore::accel::ENCORE_ISA: a function of the same name that two of them brought along would be
-/// linked from either, and with it instructions that the processor may not have.
+// Everything that is compiled once an instruction set lies in the namespace
+// encore::accel::ENCORE_ISA: a function of the same name that two of them brought along would be
+// linked from either, and with it instructions that the processor may not have.

@@ -2,9 +2,8 @@
 
 #include "accel/wide/wide_node.h"
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
+#include <cstdint>
 #include <iterator>
 
 namespace encore::accel {
@@ -27,9 +26,12 @@ struct Child {
 void order(gpu::WideNode& node, std::uint32_t count) {
   std::array<Child, WideTree::kWidth> children;
   for (std::uint32_t i = 0; i < count; ++i) {
-    children[i] = {WideChild::is_leaf(node.child[i]), child_bounds(node, i).area(), i};
+    // Put in its place at once: std::stable_sort would ask the allocator for every node.
+    const Child child{WideChild::is_leaf(node.child[i]), child_bounds(node, i).area(), i};
+    std::uint32_t place = i;
+    for (; place > 0 && child < children[place - 1]; --place) children[place] = children[place - 1];
+    children[place] = child;
   }
-  std::stable_sort(children.begin(), children.begin() + std::ptrdiff_t(count));
   const gpu::WideNode before = node;
   for (std::uint32_t i = 0; i < count; ++i) {
     node.child[i] = before.child[children[i].lane];
